@@ -1,0 +1,200 @@
+#include "apps/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/format.h"
+
+namespace interflect::apps {
+namespace {
+
+constexpr const char* example_scene = "data/scenes/cornell_box.json";
+
+/// Bytes from "4GB", "512 MB", "1e9": powers of ten, as on a label.
+struct Memory : CLI::Validator {
+  Memory() : Validator("SIZE") {
+    func_ = [](std::string& text) {
+      std::size_t used = 0;
+      double value = 0;
+      try {
+        value = std::stod(text, &used);
+      } catch (const std::exception&) {
+        return "'" + text + "' is not a size such as 4GB";
+      }
+      std::string unit = text.substr(used);
+      unit.erase(0, unit.find_first_not_of(' '));
+      for (const auto& [name, factor] : {std::pair{"", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}})
+        if (unit == name && value > 0) {
+          text = core::format("%.17g", value * factor);
+          return std::string();
+        }
+      return "'" + text + "' is not a size such as 4GB";
+    };
+  }
+};
+
+/// "1%" or "0.01".
+struct Fraction : CLI::Validator {
+  Fraction() : Validator("PART") {
+    func_ = [](std::string& text) {
+      std::size_t used = 0;
+      double value = 0;
+      try {
+        value = std::stod(text, &used);
+      } catch (const std::exception&) {
+        used = 0;
+      }
+      const std::string rest = text.substr(used);
+      if (used == 0 || (!rest.empty() && rest != "%")) return "'" + text + "' is not a part such as 1% or 0.01";
+      value *= rest.empty() ? 1.0 : 0.01;
+      if (!(value > 0 && value < 1)) return "'" + text + "' is outside 0 .. 100 %";
+      text = core::format("%.17g", value);
+      return std::string();
+    };
+  }
+};
+
+void add_common(CLI::App& app, CommonOptions& common) {
+  app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")->capture_default_str();
+  app.add_option("--threads", common.threads, "Threads to use (0: all); results do not depend on it")
+      ->check(CLI::Range(0, 1024))->capture_default_str();
+  app.add_flag("--json", common.json, "Print the result as one JSON object");
+  app.add_flag("-q,--quiet", common.quiet, "No progress and no messages but errors");
+  app.add_flag("-v,--verbose", common.verbose, "Say more");
+}
+
+void add_scene(CLI::App& command, std::filesystem::path& scene) {
+  command.add_option("SCENE", scene, "Scene file (docs/scene.md)")->required();
+}
+
+void add_radiosity(CLI::App& command, SolveOptions& options) {
+  fem::RadiositySettings& s = options.settings;
+  command.add_option("-o,--out", options.out, "Folder for the results")->required();
+  command.add_option("--element-size", s.element_size, "Longest edge of an element [m]; default: for about 2 500 elements")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")->transform(Memory())
+      ->default_str(core::format_bytes(s.max_memory));
+  command.add_option("--form-factors", s.form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
+      ->capture_default_str();
+  command.add_option("--visibility-rays", s.visibility_rays, "Rays for a pair of elements that something may hide")
+      ->check(CLI::Range(4, 65536))->capture_default_str();
+  command.add_option("--quadrature-tolerance", s.quadrature_tolerance, "Relative error of an unoccluded form factor")
+      ->check(CLI::Range(1e-14, 0.5))->capture_default_str();
+  command.add_option("--solver", s.solver, "Linear solver")->check(CLI::IsMember(solvers::solver_names()))->capture_default_str();
+  command.add_option("--solver-tolerance", s.stopping.tolerance, "Relative residual at which it stops")
+      ->check(CLI::Range(1e-15, 0.1))->capture_default_str();
+  command.add_option("--intersector", s.intersector, "Ray caster; brute is slow, double precision, for checking")
+      ->check(CLI::IsMember(raycast::ray_caster_names()))->capture_default_str();
+  command.add_flag("--restore-closure", s.restore_closure, "Closed scenes: change the form factors least so that rows sum to 1");
+  command.add_flag("--forecast", options.forecast_only, "Say what it would need, and stop");
+  command.add_flag("!--no-pictures", options.pictures, "Write no PNG");
+}
+
+/// A subcommand with an example; `run` is called with the options that parsing filled.
+template <class Options>
+CLI::App* add_command(CLI::App& app, const char* name, const char* description, const std::string& example,
+                      ExitStatus (*run)(const Options&, const CommonOptions&, Run&), std::shared_ptr<Options> options,
+                      Command& chosen) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->footer("Example:\n  " + example);
+  command->callback([&chosen, run, options] {
+    chosen.execute = [run, options](const CommonOptions& common, Run& r) { return run(*options, common, r); };
+  });
+  return command;
+}
+
+void add_solve(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<SolveOptions>();
+  CLI::App* command = add_command<SolveOptions>(
+      app, "solve", "Radiosity of a scene: tables, fields for ParaView, pictures",
+      core::format("interflect solve %s -o out/cornell --element-size 0.03", example_scene), solve, options, chosen);
+  add_scene(*command, options->scene);
+  add_radiosity(*command, *options);
+}
+
+void add_validate(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<ValidateOptions>();
+  CLI::App* command = add_command<ValidateOptions>(
+      app, "validate", "Solve, trace the same measurements by Monte Carlo, and certify how well they agree",
+      core::format("interflect validate %s -o out/cornell --accuracy 0.5%%", example_scene), validate, options, chosen);
+  add_scene(*command, options->solve.scene);
+  add_radiosity(*command, options->solve);
+  command->add_option("--accuracy", options->accuracy, "Relative standard error of each traced value, such as 1%")
+      ->transform(Fraction())->default_str("1%");
+  command->add_option("--elements", options->elements, "Elements to judge, a stratified choice")->check(CLI::Range(1, 100000000))
+      ->capture_default_str();
+  command->add_flag("--all", options->all_elements, "Judge every element");
+  command->add_option("--picture-spp", options->picture_samples, "Samples per pixel of the traced picture")
+      ->check(CLI::Range(1, 1 << 20))->capture_default_str();
+}
+
+void add_trace(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<TraceOptions>();
+  CLI::App* command = add_command<TraceOptions>(
+      app, "trace", "A picture by path tracing",
+      core::format("interflect trace %s --camera front --spp 256 -o cornell.exr", example_scene), trace, options, chosen);
+  add_scene(*command, options->scene);
+  command->add_option("--camera", options->camera, "Camera of the scene; default: its first");
+  command->add_option("--spp", options->samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24))->capture_default_str();
+  command->add_option("-o,--out", options->image, "Picture to write: .exr (radiance, with standard errors) or .png; the other is "
+                      "written beside it")->required();
+  command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv");
+  command->add_option("--accuracy", options->accuracy, "Relative standard error of those estimates, such as 1%")
+      ->transform(Fraction())->default_str("1%");
+  command->add_option("--intersector", options->intersector, "Ray caster")->check(CLI::IsMember(raycast::ray_caster_names()))
+      ->capture_default_str();
+}
+
+void add_info(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<InfoOptions>();
+  add_scene(*add_command<InfoOptions>(app, "info", "What was read: surfaces, materials, flux, box in metres, repairs",
+                                      core::format("interflect info %s", example_scene), info, options, chosen),
+            options->scene);
+}
+
+void add_check(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<CheckOptions>();
+  add_scene(*add_command<CheckOptions>(app, "check", "Looks for gaps, flipped normals, duplicate and coplanar faces",
+                                       core::format("interflect check %s", example_scene), check, options, chosen),
+            options->scene);
+}
+
+std::string version_text() {
+  const core::BuildInfo build = core::build_info();
+  return core::format("interflect %s (%s, up to %d channels)\nGPL-3.0-or-later, without any warranty", build.version.c_str(),
+                      build.compiler.c_str(), build.spectrum_capacity);
+}
+
+}  // namespace
+
+std::optional<Command> parse_command_line(int argc, char** argv) {
+  CLI::App app("How light is exchanged between surfaces, by finite elements, checked by Monte Carlo.", "interflect");
+  Command command;
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.footer(core::format("Start with:\n  interflect validate %s -o out/cornell\n"
+                          "Exit status: 0 done, 1 done but not as hoped (not validated, findings), 2 bad input.\n"
+                          "Each command has its own --help with an example.", example_scene));
+  add_common(app, command.common);
+  add_solve(app, command);
+  add_validate(app, command);
+  add_trace(app, command);
+  add_info(app, command);
+  add_check(app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    app.exit(asked);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw core::InputError("command line", std::string(error.what()) + "; interflect --help tells more");
+  }
+  for (int i = 0; i < argc; ++i) command.common.command_line += (i > 0 ? " " : "") + std::string(argv[i]);
+  return command;
+}
+
+}  // namespace interflect::apps

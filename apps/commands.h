@@ -1,0 +1,21 @@
+#pragma once
+
+#include "apps/options.h"
+#include "core/run.h"
+
+namespace interflect::apps {
+
+/// What a command ended with: the program's exit status.  Bad input throws core::InputError, which is 2.
+enum ExitStatus : int {
+  success = 0,
+  not_met = 1,    ///< it ran, and the answer is no: not validated, findings, not converged, stopped early
+  bad_input = 2
+};
+
+ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run);
+ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run);
+ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& run);
+ExitStatus info(const InfoOptions& options, const CommonOptions& common, Run& run);
+ExitStatus check(const CheckOptions& options, const CommonOptions& common, Run& run);
+
+}  // namespace interflect::apps

@@ -1,0 +1,181 @@
+#include "apps/solution_files.h"
+
+#include <cmath>
+
+#include "apps/table.h"
+#include "core/build_info.h"
+#include "core/format.h"
+#include "fem/error_summary.h"
+#include "photometry/sensor_summary.h"
+#include "results/vtu.h"
+#ifdef INTERFLECT_WITH_VTK
+#include "apps/field_pictures.h"
+#endif
+
+namespace interflect::apps {
+namespace {
+
+using fem::RadiositySolution;
+
+/// 95 %: the bound of the irradiance and 1.96 standard errors, as an error of B = E + rho H.
+std::vector<Spectrum> radiosity_errors(const RadiositySolution& solution) {
+  std::vector<Spectrum> errors;
+  for (std::size_t i = 0; i < solution.radiosity.size(); ++i)
+    errors.push_back(solution.reflectance[i] * (solution.irradiance_error[i] + 1.96 * solution.irradiance_noise[i]));
+  return errors;
+}
+
+std::vector<results::CellField> fields_of(const SolvedScene& solved) {
+  const RadiositySolution& s = solved.solution;
+  const auto& channels = solved.scene.channels;
+  std::vector<results::CellField> fields{
+      results::spectrum_field("radiosity", s.radiosity, channels),     results::spectrum_field("irradiance", s.irradiance, channels),
+      results::spectrum_field("exitance", s.exitance, channels),       results::spectrum_field("reflectance", s.reflectance, channels),
+      results::spectrum_field("error", s.irradiance_error, channels),  results::spectrum_field("noise", s.irradiance_noise, channels),
+      results::spectrum_field("field_error", s.field_error, channels), results::scalar_field("row_sum", s.row_sum)};
+  for (results::CellField& ids : results::id_fields(s.mesh)) fields.push_back(std::move(ids));
+  return fields;
+}
+
+results::Record settings_record(const fem::RadiositySettings& settings, const RadiositySolution& solution) {
+  results::Record record;
+  record.add("element_size_m", solution.element_size)
+      .add("form_factors", settings.form_factors)
+      .add("solver", settings.solver)
+      .add("solver_tolerance", settings.stopping.tolerance)
+      .add("intersector", settings.intersector)
+      .add("quadrature_tolerance", settings.quadrature_tolerance)
+      .add("visibility_rays", settings.visibility_rays)
+      .add("restore_closure", settings.restore_closure)
+      .add("max_memory_bytes", settings.max_memory);
+  return record;
+}
+
+results::Record solver_record(const RadiositySolution& solution) {
+  results::Record record;
+  record.add("stopped", solvers::describe(solution.solver.why))
+      .add("iterations", solution.solver.iterations)
+      .add("residual", solution.solver.residual())
+      .add("residual_history", solution.solver.residual_history);
+  return record;
+}
+
+results::Record energy_record(const fem::EnergyBalance& energy, int channels) {
+  results::Record record;
+  record.add("emitted", energy.emitted, channels)
+      .add("absorbed", energy.absorbed, channels)
+      .add("escaped", energy.escaped, channels)
+      .add("on_backs", energy.on_backs, channels)
+      .add("split_standard_error", energy.split_error, channels)
+      .add("form_factor_error", energy.form_factor_error, channels)
+      .add("residual", energy.residual, channels);
+  return record;
+}
+
+results::Record form_factor_record(const RadiositySolution& solution) {
+  results::Record record;
+  record.add("pairs_facing_away", solution.pairs.facing_away)
+      .add("pairs_clear", solution.pairs.clear)
+      .add("pairs_sampled", solution.pairs.sampled)
+      .add("rays", solution.pairs.rays)
+      .add("clamped", solution.pairs.clamped)
+      .add("row_sum_mean", solution.rows.mean)
+      .add("row_sum_lowest", solution.rows.lowest)
+      .add("row_sum_highest", solution.rows.highest)
+      .add("closure_correction", solution.closure_correction);
+  return record;
+}
+
+results::Record::Strings lines_of(const std::vector<scene::Note>& notes) {
+  results::Record::Strings lines;
+  for (const scene::Note& note : notes) lines.push_back(note.place + ": " + note.message);
+  return lines;
+}
+
+std::string percent(double part, double whole) { return whole > 0 ? core::format("%.2f %%", 100 * part / whole) : "-"; }
+
+std::string energy_text(const SolvedScene& solved) {
+  const scene::Scene& scene = solved.scene;
+  const fem::EnergyBalance& e = solved.solution.energy;
+  const double emitted = scene.weigh(e.emitted);
+  return core::format("energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s, form-factor error %s, solver "
+                      "residual %.1e\n", emitted,
+                      scene.flux_unit(), percent(scene.weigh(e.absorbed), emitted).c_str(),
+                      percent(scene.weigh(e.escaped), emitted).c_str(), percent(scene.weigh(e.on_backs), emitted).c_str(), percent(scene.weigh(e.form_factor_error), emitted).c_str(),
+                      emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0);
+}
+
+std::string sensors_text(const SolvedScene& solved) {
+  if (solved.points.empty()) return "";
+  const std::string unit = solved.scene.irradiance_unit();
+  Table table({"sensor", "points", "min " + unit, "mean " + unit, "max " + unit, "U0", "error of mean"});
+  for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points))
+    table.add({s.sensor, std::to_string(s.points), core::format("%.4g", s.minimum), core::format("%.5g", s.mean),
+               core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity()),
+               core::format("%.2g (%s, estimated)", s.error, percent(s.error, s.mean).c_str())});
+  return "\n" + table.text();
+}
+
+}  // namespace
+
+results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common) {
+  const RadiositySolution& solution = solved.solution;
+  const int channels = solved.scene.channel_count();
+  const core::BuildInfo build = core::build_info();
+  const fem::ErrorSummary error = fem::summarise_error(solution, solved.scene.weights);
+  results::Record stages, record;
+  for (const fem::StageCost& stage : solution.stages) stages.add(stage.stage, stage.seconds);
+  record.add("version", build.version)
+      .add("build", build.compiler)
+      .add("command", common.command_line)
+      .add("scene", solved.scene.file.string())
+      .add("seed", common.seed)
+      .add("threads", common.threads)
+      .add("quantity", solved.scene.quantity == scene::Quantity::photometric ? "photometric" : "radiometric")
+      .add("channels", solved.scene.channels)
+      .add("weights", solved.scene.weights, channels)
+      .add("settings", settings_record(options.settings, solution))
+      .add("elements", solution.mesh.size())
+      .add("operator_bytes", solution.bytes)
+      .add("seconds", std::move(stages))
+      .add("form_factors", form_factor_record(solution))
+      .add("solver", solver_record(solution))
+      .add("energy", energy_record(solution.energy, channels))
+      .add("mean_irradiance", error.mean_irradiance)
+      .add("relative_error_l2", error.relative_l2)
+      .add("relative_noise_l2", error.relative_noise_l2)
+      .add("repairs", lines_of(solved.scene.repairs))
+      .add("warnings", lines_of(solved.scene.warnings));
+  return record;
+}
+
+void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common) {
+  const RadiositySolution& s = solved.solution;
+  const int channels = solved.scene.channel_count();
+  results::write_vtu(options.out / "solution.vtu", s.mesh, fields_of(solved));
+  results::write_surfaces_csv(options.out / "surfaces.csv",
+                              results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
+  results::write_sensors_csv(options.out / "sensors.csv", solved.points, solved.at_points, channels);
+  results::write_json(options.out / "summary.json", summary_record(solved, options, common));
+#ifdef INTERFLECT_WITH_VTK
+  if (options.pictures) write_field_pictures(solved, options.out);
+#endif
+}
+
+std::string solution_text(const SolvedScene& solved) {
+  const RadiositySolution& s = solved.solution;
+  const fem::ErrorSummary error = fem::summarise_error(s, solved.scene.weights);
+  std::string text = core::format("\nelements    %s, edges up to %.4g m, %s\n", core::format_count(static_cast<unsigned long long>(s.mesh.size())).c_str(),
+                                  s.mesh.longest_edge(), core::format_bytes(s.bytes).c_str());
+  text += energy_text(solved);
+  text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest, s.rows.highest);
+  text += core::format("irradiance  mean %.5g %s, error about %.2f %% (L2, estimated) and noise %.2f %%\n", error.mean_irradiance,
+                       solved.scene.irradiance_unit(), 100 * error.relative_l2, 100 * error.relative_noise_l2);
+  text += core::format("solver      %s after %d iterations, residual %.1e\n", solvers::describe(s.solver.why).c_str(),
+                       s.solver.iterations, s.solver.residual());
+  text += "time        ";
+  for (const fem::StageCost& stage : s.stages) text += core::format("%s %s  ", stage.stage.c_str(), core::format_duration(stage.seconds).c_str());
+  return text + "\n" + sensors_text(solved);
+}
+
+}  // namespace interflect::apps

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "apps/solved_scene.h"
+#include "results/record.h"
+#include "results/tables.h"
+
+namespace interflect::apps {
+
+/// What summary.json says of a run: enough to repeat it and to judge it.
+results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common);
+
+/// solution.vtu, surfaces.csv, sensors.csv, summary.json and the pictures, into options.out.
+void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common);
+
+/// The short table of a solve: elements, energy, error, sensors, time of each stage.
+std::string solution_text(const SolvedScene& solved);
+
+}  // namespace interflect::apps

@@ -1,0 +1,123 @@
+// How close the dense operator comes to a plain read of its bytes, with three columns: ratios within one interleaved
+// run.
+//
+//   bench_dense_operator [n ...]      default: 5000 10000
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/random.h"
+#include "core/run.h"
+#include "fem/operator/dense_symmetric.h"
+#include "solvers/gauss_seidel.h"
+
+using namespace interflect;
+
+namespace {
+
+constexpr int rounds = 15;
+constexpr Index columns = 3;
+constexpr std::size_t large_page = std::size_t{2} << 20;
+
+double seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+/// Sums an array, on the threads of a run: what memory can do.
+double plain_sum(const double* data, Index count, const Run& run) {
+  return core::reduce_in_blocks(run.threads, count, Index{1} << 18, 0.0, [&](Index begin, Index end) {
+    Eigen::Array<double, 32, 1> sums = Eigen::Array<double, 32, 1>::Zero();
+    for (; begin + 32 <= end; begin += 32) sums += Eigen::Map<const Eigen::Array<double, 32, 1>>(data + begin);
+    return sums.sum();
+  });
+}
+
+struct Problem {
+  explicit Problem(Index n)
+      : K(std::vector<double>(static_cast<std::size_t>(n), 1.0)), count(static_cast<Index>(K.bytes() / 8)) {
+    for (Index a = 0; a < n; ++a) {
+      RandomRow random{1, static_cast<std::uint32_t>(a), 0};
+      for (Index j = a; j < n; ++j) K.add(a, j, random.next() / static_cast<double>(n), 0);
+    }
+    const std::size_t bytes = (static_cast<std::size_t>(count) * 8 + large_page - 1) / large_page * large_page;
+    plain.reset(static_cast<double*>(std::aligned_alloc(large_page, bytes)));
+    madvise(plain.get(), bytes, MADV_HUGEPAGE);
+    std::fill(plain.get(), plain.get() + count, 1.0);
+    b = solvers::ColumnMatrix::Random(n, columns);
+    out.resize(n, columns);
+  }
+  using RandomRow = core::RandomNumbers;
+  struct Free {
+    void operator()(double* p) const { std::free(p); }
+  };
+  fem::DenseSymmetric K;
+  Index count;
+  std::unique_ptr<double[], Free> plain;
+  solvers::ColumnMatrix b, out;
+};
+
+void compare(Problem& problem, unsigned threads, double& sink) {
+  core::LocalRun run(1, threads);
+  std::vector<double> read, apply, sweep, ratio;
+  const solvers::Reflection R(solvers::ColumnMatrix::Constant(problem.K.size(), columns, 0.5));
+  const solvers::System system{problem.K, R, problem.b};
+  for (int round = 0; round < rounds; ++round) {
+    read.push_back(seconds([&] { sink += plain_sum(problem.plain.get(), problem.count, run.get()); }));
+    apply.push_back(seconds([&] { problem.K.apply(problem.b, problem.out, run); }));
+    ratio.push_back(read.back() / apply.back());
+    solvers::SolverState state;
+    sweep.push_back(seconds([&] { solvers::GaussSeidel().advance(system, state, {0.0, 1}, run); }));
+    sink += problem.out.sum();
+  }
+  const double gigabytes = static_cast<double>(problem.count) * 8e-9;
+  std::printf("%7td %7u %11.2f %11.2f %9.0f %% %17.2f\n", problem.K.size(), threads, gigabytes / median(read),
+              gigabytes / median(apply), 100 * median(ratio), median(sweep) / median(read));
+}
+
+/// Eigen's product of the same matrix, all of its n² entries stored.
+void compare_eigen(const Problem& problem, double& sink) {
+  const Index n = problem.K.size();
+  Eigen::MatrixXd full(n, n);
+  for (Index a = 0; a < n; ++a)
+    for (Index b = 0; b < n; ++b) full(a, b) = problem.K.entry(a, b);
+  core::LocalRun run(1, 1);
+  solvers::ColumnMatrix out(n, columns);
+  std::vector<double> ratio;
+  for (int round = 0; round < 5; ++round) {
+    const double read = seconds([&] { sink += plain_sum(full.data(), n * n, run.get()); });
+    ratio.push_back(read / seconds([&] { out.noalias() = full * problem.b; }));
+    sink += out.sum();
+  }
+  std::printf("%7td       1   Eigen's full(n, n) * b(n, 3): %.0f %% of a plain read of its 8 n^2 bytes\n", n,
+              100 * median(ratio));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<Index> sizes;
+  for (int i = 1; i < argc; ++i) sizes.push_back(std::atol(argv[i]));
+  if (sizes.empty()) sizes = {5000, 10000};
+  double sink = 0;
+  std::printf("      n threads   read GB/s  apply GB/s  apply / read  sweep / read (times)\n");
+  for (Index n : sizes) {
+    Problem problem(n);
+    for (unsigned threads : {1u, 2u}) compare(problem, threads, sink);
+    compare_eigen(problem, sink);
+  }
+  return sink == 12345 ? 1 : 0;  // so that nothing is optimised away
+}

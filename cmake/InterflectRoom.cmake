@@ -1,0 +1,50 @@
+# interflect_room(<folder> SOURCES ... [ROOMS ...] [LIBRARIES ...] [PUBLIC_LIBRARIES ...])
+#
+# One folder is one library target interflect::<folder>.  ROOMS are the rooms that it may include; LIBRARIES are
+# third-party targets that only its .cpp files see.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(INTERFLECT_CCACHE ccache)
+if(INTERFLECT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${INTERFLECT_CCACHE})
+endif()
+
+add_library(interflect_options INTERFACE)
+add_library(interflect::options ALIAS interflect_options)
+target_compile_options(interflect_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wformat=2
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false alarms of GCC 12 on sums of strings (its bug 105651)
+  # a*b - c*d must vanish when both products are equal: geometry is written on that.  Kernels opt in to contraction.
+  -ffp-contract=off
+  $<$<BOOL:${INTERFLECT_WERROR}>:-Werror>)
+if(INTERFLECT_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(interflect_options INTERFACE -march=${INTERFLECT_ARCH})
+endif()
+if(INTERFLECT_SANITIZE)
+  target_compile_options(interflect_options INTERFACE -fsanitize=${INTERFLECT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(interflect_options INTERFACE -fsanitize=${INTERFLECT_SANITIZE})
+endif()
+
+function(interflect_room room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES;PUBLIC_LIBRARIES" ${ARGN})
+  add_library(interflect_${room} ${ARG_SOURCES})
+  add_library(interflect::${room} ALIAS interflect_${room})
+  set_target_properties(interflect_${room} PROPERTIES EXPORT_NAME ${room})
+  target_include_directories(interflect_${room} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/interflect>)
+  target_compile_features(interflect_${room} PUBLIC cxx_std_20)
+  list(TRANSFORM ARG_ROOMS PREPEND interflect::)
+  target_link_libraries(interflect_${room}
+    PUBLIC ${ARG_ROOMS} ${ARG_PUBLIC_LIBRARIES}
+    PRIVATE $<BUILD_INTERFACE:interflect::options> ${ARG_LIBRARIES})
+  set_property(GLOBAL APPEND PROPERTY INTERFLECT_ROOMS ${room})
+endfunction()

@@ -1,0 +1,20 @@
+# interflect_test(<name> LABEL <label> SOURCES ... [ROOMS ...] [LIBRARIES ...] [TIMEOUT seconds])
+#
+# One executable, each of its TESTs a ctest case under LABEL (unit, property, convergence, statistical, smoke, corpus, long).
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+function(interflect_test name)
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(test_${name} ${ARG_SOURCES})
+  list(TRANSFORM ARG_ROOMS PREPEND interflect::)
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(test_${name} PRIVATE ${ARG_ROOMS} ${ARG_LIBRARIES} GTest::gtest_main interflect::options)
+  target_compile_definitions(test_${name} PRIVATE INTERFLECT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX ${name}/
+    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+endfunction()

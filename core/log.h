@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+/// Messages to people, on standard error; standard output is for results.
+namespace interflect::core::log {
+
+enum class Level { quiet, warnings, info, debug };
+
+void set_level(Level level);
+void debug(const std::string& message);
+void info(const std::string& message);
+void warning(const std::string& message);
+
+}  // namespace interflect::core::log

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace interflect::core {
+
+/// Tells a person how far a run has come, on standard error: a bar with the time to completion on a terminal, a line every
+/// ten seconds elsewhere, nothing when quiet.  Stages shorter than two seconds stay silent.
+class Progress {
+ public:
+  enum class Style { quiet, bar, lines };
+  /// A bar on a terminal, lines elsewhere.
+  static Style style_of_standard_error();
+
+  explicit Progress(Style style = Style::quiet) : style_(style) {}
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// One stage of work; ends with its scope.  `advance` may be called by any thread.
+  class Stage {
+   public:
+    Stage(Progress& progress, std::string name, std::uint64_t total);
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+    void advance(std::uint64_t units = 1);
+
+   private:
+    friend class Progress;
+    using Clock = std::chrono::steady_clock;
+    Progress& progress_;
+    std::string name_;
+    std::uint64_t total_;
+    std::atomic<std::uint64_t> done_{0};
+    Clock::time_point start_ = Clock::now();
+    std::atomic<Clock::rep> next_report_;  ///< since the epoch of the clock: one thread wins the right to print
+    bool shown_ = false;
+  };
+
+ private:
+  void report(Stage& stage, std::uint64_t done);
+
+  Style style_;
+  std::mutex printing_;
+};
+
+}  // namespace interflect::core

@@ -1,0 +1,102 @@
+#include "fem/energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/moments.h"
+#include "core/random.h"
+#include "fem/element_point.h"
+
+namespace interflect::fem {
+
+namespace {
+
+constexpr Index ray_count = 100'000, ray_block = 2'000;
+
+/// Running sums of the probabilities that elements send a ray, 1 at the end.
+std::vector<double> cumulative_shares(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                      std::span<const Spectrum> radiosity) {
+  const std::size_t n = patches.size();
+  std::vector<double> flux(n), sums(n);
+  double all_flux = 0.0, all_area = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    flux[i] = patches[i].area * std::max(0.0, scene.weigh(radiosity[i]));
+    all_flux += flux[i];
+    all_area += patches[i].area;
+  }
+  const double by_flux = all_flux > 0.0 ? 0.5 / all_flux : 0.0, by_area = (all_flux > 0.0 ? 0.5 : 1.0) / all_area;
+  for (std::size_t i = 0; i < n; ++i) sums[i] = sum += by_flux * flux[i] + by_area * patches[i].area;
+  for (double& value : sums) value /= sum;
+  return sums;
+}
+
+raycast::Ray ray_from(const scene::SurfacePatch& patch, core::RandomNumbers& random, double& weight) {
+  const double s = random.next(), t = random.next();
+  const WeightedPoint from = element_point(patch, s, t);
+  weight = from.weight;
+  const double radius_squared = random.next(), angle = 2.0 * pi * random.next();
+  const Vec3 n = patch.normal(), u = n.unitOrthogonal(), v = n.cross(u);
+  const double radius = std::sqrt(radius_squared);
+  const Vec3 direction = radius * std::cos(angle) * u + radius * std::sin(angle) * v + std::sqrt(1.0 - radius_squared) * n;
+  return {from.position, direction.normalized(), n};
+}
+
+struct Tally {
+  core::Moments escaped, on_backs;
+  std::uint64_t lost = 0;
+};
+
+}  // namespace
+
+LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, std::span<const Spectrum> radiosity,
+                        const raycast::RayCaster& rays, Run& run) {
+  const std::vector<double> shares = cumulative_shares(scene, patches, radiosity);
+  const std::uint64_t seed = core::derived_seed(run.seed, "lost flux");
+  std::vector<Tally> tallies(static_cast<std::size_t>(ray_count / ray_block));
+  run.threads.for_blocks(ray_count, ray_block, [&](Index begin, Index end) {
+    run.throw_if_stopped("energy balance");
+    Tally& tally = tallies[static_cast<std::size_t>(begin / ray_block)];
+    for (Index k = begin; k < end; ++k) {
+      core::RandomNumbers random(seed, 0, static_cast<std::uint64_t>(k));
+      const double stratified = (static_cast<double>(k) + random.next()) / static_cast<double>(ray_count);
+      const auto found = std::upper_bound(shares.begin(), shares.end() - 1, stratified) - shares.begin();
+      const auto i = static_cast<std::size_t>(found);
+      const double probability = shares[i] - (i > 0 ? shares[i - 1] : 0.0);
+      double weight = 1.0;
+      const auto hit = rays.closest(ray_from(patches[i], random, weight));
+      const Spectrum flux = weight * patches[i].area / probability * radiosity[i];
+      const bool back = hit && !scene.material(hit->surface).active(hit->side);
+      tally.escaped.add(hit ? Spectrum::zero() : flux);
+      tally.on_backs.add(back ? flux : Spectrum::zero());
+      tally.lost += !hit || back;
+    }
+  });
+  Tally total;
+  for (const Tally& tally : tallies) {
+    total.escaped.merge(tally.escaped);
+    total.on_backs.merge(tally.on_backs);
+    total.lost += tally.lost;
+  }
+  return {total.escaped.mean(), total.on_backs.mean(), total.escaped.standard_error(), total.on_backs.standard_error(),
+          static_cast<std::uint64_t>(ray_count), total.lost};
+}
+
+EnergyBalance energy_balance(const RadiositySolution& s, const LostRays& lost) {
+  EnergyBalance energy;
+  Spectrum unaccounted;
+  for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
+    const double area = s.mesh.patches()[i].area;
+    energy.emitted += area * s.exitance[i];
+    energy.absorbed += area * (s.irradiance[i] - s.reflectance[i] * s.irradiance[i]);
+    unaccounted += area * (1.0 - s.row_sum[i]) * s.radiosity[i];
+  }
+  energy.escaped = lost.escaped;
+  energy.on_backs = lost.on_backs;
+  energy.split_error = lost.escaped_error.map([](double e) { return e * e; }) + lost.on_backs_error.map([](double e) { return e * e; });
+  energy.split_error = energy.split_error.map([](double v) { return std::sqrt(v); });
+  energy.form_factor_error = unaccounted - lost.escaped - lost.on_backs;
+  energy.residual = energy.emitted - energy.absorbed - unaccounted;
+  return energy;
+}
+
+}  // namespace interflect::fem

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/run.h"
+#include "raycast/ray_caster.h"
+#include "scene/scene.h"
+
+namespace interflect::fem {
+
+/// Some of the elements: patches[first .. first + count) of all of them.
+struct ElementBlock {
+  std::span<const scene::SurfacePatch> patches;
+  Index first = 0, count = 0;
+};
+
+/// Where entries of K go.  A pair is written once (a <= b or as asked for); the sink keeps K symmetric.
+class ExchangeSink {
+ public:
+  virtual ~ExchangeSink() = default;
+  /// @param K_ab   A_a F_ab [m²], 0 <= K_ab <= min(A_a, A_b)
+  /// @param error  standard error of sampled visibility and quadrature error, added in squares [m²]
+  virtual void add(Index a, Index b, double K_ab, double error) = 0;
+};
+
+/// Counts of what happened to the pairs of an assembly.
+struct PairCounts {
+  std::uint64_t facing_away = 0;  ///< proved dark by orientation
+  std::uint64_t clear = 0;        ///< proved fully visible by a shaft
+  std::uint64_t sampled = 0;      ///< visibility by rays
+  std::uint64_t rays = 0;
+  std::uint64_t clamped = 0;      ///< entries pulled back into 0 <= K <= min(A_a, A_b)
+  PairCounts& operator+=(const PairCounts& o);
+};
+
+/// A way to compute form factors, picked by name.
+class FormFactorMethod {
+ public:
+  enum class Granularity : std::uint8_t { pair, row, all };
+  virtual ~FormFactorMethod() = default;
+  virtual std::string name() const = 0;
+  virtual Granularity granularity() const = 0;
+  virtual int highest_order() const { return 0; }  ///< of the basis: 0 for constants only
+  /// Every pair (a in rows, b in columns) with a < b once; reentrant.  Same numbers whatever the blocks.
+  virtual PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const = 0;
+};
+
+/// What a method is made for; all of it outlives the method.
+struct FormFactorContext {
+  const scene::Scene& scene;
+  std::span<const scene::SurfacePatch> patches;
+  const raycast::RayCaster& rays;
+  std::uint64_t seed = 1;
+  double tolerance = 1e-3;      ///< relative, of the quadrature of one entry
+  int visibility_rays = 16;     ///< per pair that is neither clear nor dark; at least 4
+};
+
+/// @throws core::InputError with the names known
+std::unique_ptr<FormFactorMethod> make_form_factor_method(const std::string& name, const FormFactorContext& context);
+std::vector<std::string> form_factor_names();
+
+}  // namespace interflect::fem

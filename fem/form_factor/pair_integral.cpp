@@ -1,0 +1,104 @@
+#include "fem/form_factor/pair_integral.h"
+
+#include <algorithm>
+
+#include "fem/form_factor/far_field.h"
+#include "geometry/clip.h"
+
+namespace interflect::fem {
+
+namespace {
+
+/// Heights of an element's corners over a plane [m].
+struct Heights {
+  double lowest, highest;
+};
+
+Heights heights(const ElementShape& shape, const geometry::Plane& plane) {
+  double lowest = plane.distance(shape.corner[0]), highest = lowest;
+  for (std::size_t k = 1; k < shape.corners; ++k) {
+    const double height = plane.distance(shape.corner[k]);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  return {lowest, highest};
+}
+
+double slope(const Heights& h) { return (h.highest - h.lowest) / (h.highest + std::max(h.lowest, 0.0)); }
+
+Integral near_field(const ElementShape& a, const ElementShape& b, double tolerance) {
+  const bool a_is_outer = a.radius <= b.radius;
+  const ElementShape &outer = a_is_outer ? a : b, &inner = a_is_outer ? b : a;
+  return adaptive_lambert(outer.ring(), outer.plane.normal, inner.ring(), tolerance);
+}
+
+double proximity(const ElementShape& a, const ElementShape& b) {
+  return (a.radius + b.radius) / (a.centroid - b.centroid).norm();
+}
+
+/// A clipped element as triangles and quads.
+struct Pieces {
+  std::array<ElementShape, 4> shape;
+  std::size_t count = 0;
+};
+
+Pieces pieces_of(const geometry::ConvexRing& ring, const geometry::Plane& plane) {
+  Pieces pieces;
+  const auto corners = static_cast<std::size_t>(ring.corners);
+  for (std::size_t first = 1; first + 1 < corners; first += 2) {
+    std::array<Vec3, 4> part = {ring.corner[0], ring.corner[first], ring.corner[first + 1], ring.corner[0]};
+    std::size_t part_corners = 3;
+    if (first + 2 < corners) part[part_corners++] = ring.corner[first + 2];
+    const ElementShape shape = shape_of({part.data(), part_corners}, plane);
+    if (shape.area > 0.0 && pieces.count < pieces.shape.size()) pieces.shape[pieces.count++] = shape;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+PairIntegral PairIntegrator::operator()(Index i, Index j) const {
+  const ElementShape &a = shapes_[i], &b = shapes_[j];
+  const double rounding = shapes_.plane_tolerance();
+  const Heights of_b = heights(b, a.plane);
+  if (of_b.highest <= rounding) return {};
+  const Heights of_a = heights(a, b.plane);
+  if (of_a.highest <= rounding) return {};
+  if (std::min(of_a.lowest, of_b.lowest) < -rounding) {
+    const Integral part = clipped_pair(a, b);
+    return {part.value > 0.0 ? Facing::crossing : Facing::away, part.value, part.error};
+  }
+  const double q = proximity(a, b), variation = std::max(slope(of_a), slope(of_b));
+  const int level = far_field_level(q, variation, tolerance_);
+  if (level == ElementShapes::levels) {
+    const Integral near = near_field(a, b, tolerance_);
+    return {Facing::full, near.value, near.error};
+  }
+  const double value = far_field(shapes_.nodes(i, level), a.plane, shapes_.nodes(j, level), b.plane);
+  return {Facing::full, value, value * far_field_error(level, q, variation)};
+}
+
+Integral PairIntegrator::clipped_pair(const ElementShape& a, const ElementShape& b) const {
+  const Pieces of_a = pieces_of(geometry::clip(a.ring(), b.plane), a.plane);
+  const Pieces of_b = pieces_of(geometry::clip(b.ring(), a.plane), b.plane);
+  Integral sum;
+  for (std::size_t k = 0; k < of_a.count; ++k)
+    for (std::size_t l = 0; l < of_b.count; ++l) {
+      const ElementShape &p = of_a.shape[k], &q = of_b.shape[l];
+      const double ratio = proximity(p, q), variation = 1.0;  // one of them touches the other's plane
+      const int level = far_field_level(ratio, variation, tolerance_);
+      Integral part;
+      if (level == ElementShapes::levels) {
+        part = near_field(p, q, tolerance_);
+      } else {
+        const NodeBuffer nodes_p(p, shapes_.rules(level)), nodes_q(q, shapes_.rules(level));
+        part.value = std::max(0.0, far_field(nodes_p.arrays(), p.plane, nodes_q.arrays(), q.plane));
+        part.error = part.value * far_field_error(level, ratio, variation);
+      }
+      sum.value += part.value;
+      sum.error += part.error;
+    }
+  return sum;
+}
+
+}  // namespace interflect::fem

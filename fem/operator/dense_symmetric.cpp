@@ -1,0 +1,236 @@
+#include "fem/operator/dense_symmetric.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+#include "core/format.h"
+#include "fem/operator/tile_product.h"
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace interflect::fem {
+namespace {
+
+constexpr Index strip_count = 16;  // more would cost vectors of partial sums, fewer would leave processors idle
+
+/// Pages of zeros, large ones where the system has them.
+double* zeros(Index count) {
+  const std::size_t alignment = std::size_t{2} << 20;
+  const std::size_t bytes = (static_cast<std::size_t>(count) * sizeof(double) + alignment - 1) / alignment * alignment;
+  void* p = std::aligned_alloc(alignment, bytes);
+  if (p == nullptr)
+    throw core::InputError("dense operator: no memory for its " + core::format_bytes(static_cast<double>(bytes)) +
+                           "; larger elements expected");
+#ifdef __linux__
+  madvise(p, bytes, MADV_HUGEPAGE);
+#endif
+  std::memset(p, 0, bytes);
+  return static_cast<double*>(p);
+}
+
+/// A few columns, padded with zeros to whole tiles and laid out as tile products want them: tile after tile, in it
+/// column after column.
+class TiledColumns {
+ public:
+  TiledColumns() = default;
+  TiledColumns(Index tiles, Index columns)
+      : columns_(columns), values_(static_cast<std::size_t>(tiles * columns * tile_size)) {}
+  const double* tile(Index I) const { return values_.data() + I * columns_ * tile_size; }
+  double* tile(Index I) { return values_.data() + I * columns_ * tile_size; }
+  double operator()(Index row, Index c) const { return tile(row / tile_size)[c * tile_size + row % tile_size]; }
+  double& operator()(Index row, Index c) { return tile(row / tile_size)[c * tile_size + row % tile_size]; }
+
+ private:
+  Index columns_ = 0;
+  std::vector<double> values_;
+};
+
+/// Columns of a tile, `count` from `K` on, become rows of `to`: in blocks of one cache line to write, and few to read
+/// from.
+void copy_transposed(const double* K, Index count, double* to, Index stride) {
+  constexpr Index line = 8;
+  for (Index j = 0; j < tile_size; j += line, to += line, K += line * tile_size)
+    for (Index i = 0; i < count; ++i)
+      for (Index k = 0; k < line; ++k) to[i * stride + k] = K[k * tile_size + i];
+}
+
+}  // namespace
+
+void DenseSymmetric::Free::operator()(double* p) const { std::free(p); }
+
+DenseSymmetric::DenseSymmetric(std::vector<double> areas)
+    : layout_(solvers::Layout::uniform(static_cast<Index>(areas.size()), 1)),
+      areas_(std::move(areas)),
+      self_(areas_.size(), 0.0),
+      tile_rows_((size() + tile_size - 1) / tile_size) {
+  const Index tiles = tile_rows_ * (tile_rows_ + 1) / 2;
+  entries_.reset(zeros(std::max<Index>(tiles, 1) * tile_entries));
+  errors_ = std::vector<std::atomic<float*>>(static_cast<std::size_t>(tiles));
+  for (Index I = 0; I < tile_rows_;) {  // strip s ends where (s + 1) / strip_count of the tiles are passed
+    const Index enough = (static_cast<Index>(strips_.size()) + 1) * tiles;
+    Index end = I + 1;
+    while (end < tile_rows_ && tile_at(end, end) * strip_count < enough) ++end;
+    strips_.push_back({I, end});
+    I = end;
+  }
+}
+
+DenseSymmetric::~DenseSymmetric() {
+  for (const auto& errors : errors_) delete[] errors.load();
+}
+
+float* DenseSymmetric::error_tile(Index at) {
+  std::atomic<float*>& slot = errors_[static_cast<std::size_t>(at)];
+  if (float* present = slot.load(std::memory_order_acquire)) return present;
+  auto fresh = std::make_unique<float[]>(static_cast<std::size_t>(tile_entries));
+  float* present = nullptr;
+  if (slot.compare_exchange_strong(present, fresh.get(), std::memory_order_acq_rel)) return fresh.release();
+  return present;  // another thread was first
+}
+
+void DenseSymmetric::add(Index a, Index b, double K_ab, double error) {
+  assert(a >= 0 && a < size() && b >= 0 && b < size() && std::isfinite(K_ab) && std::isfinite(error));
+  if (a > b) std::swap(a, b);
+  const Index I = a / tile_size, J = b / tile_size, i = a % tile_size, j = b % tile_size;
+  double* K = tile_data(I, J);
+  K[i * tile_size + j] = K_ab;
+  if (I == J) K[j * tile_size + i] = K_ab;
+  if (a == b) self_[static_cast<std::size_t>(a)] = K_ab;
+  if (error == 0 && errors_[static_cast<std::size_t>(tile_at(I, J))].load(std::memory_order_acquire) == nullptr) return;
+  float* errors = error_tile(tile_at(I, J));
+  errors[i * tile_size + j] = static_cast<float>(error);
+  if (I == J) errors[j * tile_size + i] = static_cast<float>(error);
+}
+
+double DenseSymmetric::entry(Index a, Index b) const {
+  if (a > b) std::swap(a, b);
+  return tile_data(a / tile_size, b / tile_size)[a % tile_size * tile_size + b % tile_size];
+}
+
+double DenseSymmetric::entry_error(Index a, Index b) const {
+  if (a > b) std::swap(a, b);
+  const float* errors =
+      errors_[static_cast<std::size_t>(tile_at(a / tile_size, b / tile_size))].load(std::memory_order_acquire);
+  return errors == nullptr ? 0.0 : static_cast<double>(errors[a % tile_size * tile_size + b % tile_size]);
+}
+
+template <class TileOf>
+void DenseSymmetric::multiply(const TileOf& tile_of, solvers::ConstColumns b, solvers::Columns out, Run& run) const {
+  const Index n = size(), columns = b.cols();
+  assert(b.rows() == n && out.rows() == n && out.cols() == columns);
+  TiledColumns x(tile_rows_, columns);
+  for (Index a = 0; a < n; ++a)
+    for (Index c = 0; c < columns; ++c) x(a, c) = b(a, c);
+
+  // A strip of tiles adds to rows of its own and to all after them: sums of its own, from its first row on.
+  std::vector<TiledColumns> sums(strips_.size());
+  run.threads.for_blocks(static_cast<Index>(strips_.size()), 1, [&](Index s, Index) {
+    const auto [first, end] = strips_[static_cast<std::size_t>(s)];
+    TiledColumns y(tile_rows_ - first, columns);
+    std::vector<double> lanes(static_cast<std::size_t>(columns * tile_size * tile_lanes)), scratch(tile_entries);
+    for (Index I = first; I < end; ++I) {
+      for (Index J = I; J < tile_rows_; ++J) {
+        const double* K = tile_of(tile_at(I, J), scratch.data());
+        if (K == nullptr) continue;
+        const TileColumns at{std::as_const(x).tile(I), std::as_const(x).tile(J), lanes.data(), y.tile(J - first)};
+        I == J ? add_tile(K, columns, at) : add_tile_and_mirror(K, columns, at);
+      }
+      add_lanes(lanes.data(), columns, y.tile(I - first));
+    }
+    sums[static_cast<std::size_t>(s)] = std::move(y);
+  });
+
+  run.threads.for_blocks(n, 16 * tile_size, [&](Index begin, Index stop) {
+    out.middleRows(begin, stop - begin).setZero();
+    for (std::size_t s = 0; s < strips_.size(); ++s) {
+      const Index origin = strips_[s].first * tile_size;
+      for (Index a = std::max(begin, origin); a < stop; ++a)
+        for (Index c = 0; c < columns; ++c) out(a, c) += std::as_const(sums[s])(a - origin, c);
+    }
+  });
+}
+
+void DenseSymmetric::apply(solvers::ConstColumns b, solvers::Columns out, Run& run) const {
+  multiply([&](Index at, double*) { return entries_.get() + at * tile_entries; }, b, out, run);
+}
+
+void DenseSymmetric::variance(solvers::ConstColumns b, solvers::Columns out, Run& run) const {
+  const solvers::ColumnMatrix squares = b.array().square();
+  const auto squared_errors = [&](Index at, double* scratch) -> const double* {
+    const float* errors = errors_[static_cast<std::size_t>(at)].load(std::memory_order_acquire);
+    if (errors == nullptr) return nullptr;
+    for (Index i = 0; i < tile_entries; ++i) {
+      const double error = static_cast<double>(errors[i]);
+      scratch[i] = error * error;
+    }
+    return scratch;
+  };
+  multiply(squared_errors, squares, out, run);
+}
+
+void DenseSymmetric::rows(Index first, Index count, solvers::Columns out) const {
+  const Index n = size(), end = first + count;
+  assert(first >= 0 && end <= n && out.rows() == count && out.cols() == n);
+  for (Index I = first / tile_size; I * tile_size < end; ++I) {
+    const Index begin_i = std::max<Index>(first - I * tile_size, 0), end_i = std::min(end - I * tile_size, tile_size);
+    double* to = out.row(I * tile_size + begin_i - first).data();
+    for (Index J = 0; J < I; ++J, to += tile_size)
+      copy_transposed(tile_data(J, I) + begin_i, end_i - begin_i, to, out.outerStride());
+    for (Index J = I; J < tile_rows_; ++J, to += tile_size) {
+      const std::size_t width = static_cast<std::size_t>(std::min(tile_size, n - J * tile_size)) * sizeof(double);
+      const double* K = tile_data(I, J);
+      for (Index i = begin_i; i < end_i; ++i)
+        std::memcpy(to + (i - begin_i) * out.outerStride(), K + i * tile_size, width);
+    }
+  }
+  evaluated_.fetch_add(count, std::memory_order_relaxed);
+}
+
+std::vector<double> DenseSymmetric::row_sums(Run& run) const {
+  const solvers::ColumnMatrix ones = solvers::ColumnMatrix::Ones(size(), 1);
+  solvers::ColumnMatrix sums(size(), 1);
+  apply(ones, sums, run);
+  std::vector<double> F(areas_.size());
+  for (std::size_t a = 0; a < F.size(); ++a) F[a] = sums(static_cast<Index>(a), 0) / areas_[a];
+  return F;
+}
+
+bool DenseSymmetric::has_errors() const {
+  return std::any_of(errors_.begin(), errors_.end(), [](const auto& errors) { return errors.load() != nullptr; });
+}
+
+void DenseSymmetric::scale(std::span<const double> s, Run& run) {
+  assert(static_cast<Index>(s.size()) == size());
+  const auto factor = [&](Index a) { return a < size() ? s[static_cast<std::size_t>(a)] : 0.0; };
+  run.threads.for_blocks(static_cast<Index>(strips_.size()), 1, [&](Index strip, Index) {
+    for (Index I = strips_[static_cast<std::size_t>(strip)].first; I < strips_[static_cast<std::size_t>(strip)].end;
+         ++I)
+      for (Index J = I; J < tile_rows_; ++J) {
+        double* K = tile_data(I, J);
+        float* errors = errors_[static_cast<std::size_t>(tile_at(I, J))].load(std::memory_order_acquire);
+        for (Index i = 0; i < tile_size; ++i)
+          for (Index j = 0; j < tile_size; ++j) {
+            const double both = factor(I * tile_size + i) * factor(J * tile_size + j);
+            K[i * tile_size + j] *= both;
+            if (errors != nullptr) errors[i * tile_size + j] *= static_cast<float>(both);
+          }
+      }
+  });
+  for (std::size_t a = 0; a < self_.size(); ++a) self_[a] = entry(static_cast<Index>(a), static_cast<Index>(a));
+}
+
+double DenseSymmetric::bytes() const {
+  const auto tiles = static_cast<double>(errors_.size());
+  const auto with_errors = static_cast<double>(
+      std::count_if(errors_.begin(), errors_.end(), [](const auto& e) { return e.load() != nullptr; }));
+  return static_cast<double>(tile_entries) * (tiles * sizeof(double) + with_errors * sizeof(float));
+}
+
+}  // namespace interflect::fem

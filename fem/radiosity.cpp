@@ -1,0 +1,145 @@
+#include "fem/radiosity.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.h"
+#include "fem/assembly.h"
+#include "fem/closure.h"
+#include "fem/columns.h"
+#include "fem/energy.h"
+#include "fem/error_estimate.h"
+#include "mesh/uniform.h"
+
+namespace interflect::fem {
+
+namespace {
+
+class StageClock {
+ public:
+  explicit StageClock(std::vector<StageCost>& stages) : stages_(stages) {}
+  template <class Work>
+  auto operator()(const std::string& stage, const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    struct Record {
+      ~Record() { stages.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()}); }
+      std::vector<StageCost>& stages;
+      const std::string& name;
+      std::chrono::steady_clock::time_point begin;
+    } const record{stages_, stage, start};
+    return work();
+  }
+
+ private:
+  std::vector<StageCost>& stages_;
+};
+
+std::vector<double> areas_of(const mesh::ElementMesh& mesh) {
+  std::vector<double> areas;
+  for (const auto& patch : mesh.patches()) areas.push_back(patch.area);
+  return areas;
+}
+
+/// b = e + R G^-1 K b from a fresh start.
+solvers::ColumnMatrix solve_system(const DenseSymmetric& K, const solvers::ColumnMatrix& exitance, const solvers::ColumnMatrix& reflectance,
+                                   const RadiositySettings& settings, Run& run, solvers::SolverReport& report) {
+  const solvers::Reflection R(reflectance);
+  solvers::SolverState state{exitance, 0};
+  report = solvers::make_solver(settings.solver)->advance({K, R, exitance}, state, settings.stopping, run);
+  return std::move(state.x);
+}
+
+/// Every fourth row: the parents' values of what four children share.
+solvers::ColumnMatrix of_parents(const solvers::ColumnMatrix& children) {
+  solvers::ColumnMatrix parents(children.rows() / 4, children.cols());
+  for (Index I = 0; I < parents.rows(); ++I) parents.row(I) = children.row(4 * I);
+  return parents;
+}
+solvers::ColumnMatrix to_children(const solvers::ColumnMatrix& parents) {
+  solvers::ColumnMatrix children(4 * parents.rows(), parents.cols());
+  for (Index i = 0; i < children.rows(); ++i) children.row(i) = parents.row(i / 4);
+  return children;
+}
+
+RowSums summary_of(std::span<const double> row_sums, std::span<const double> areas) {
+  RowSums rows{0, row_sums.front(), row_sums.front()};
+  double area = 0;
+  for (std::size_t i = 0; i < row_sums.size(); ++i) {
+    rows.mean += areas[i] * row_sums[i];
+    area += areas[i];
+    rows.lowest = std::min(rows.lowest, row_sums[i]);
+    rows.highest = std::max(rows.highest, row_sums[i]);
+  }
+  rows.mean /= area;
+  return rows;
+}
+
+void set_materials(RadiositySolution& s, const scene::Scene& scene) {
+  for (const auto& patch : s.mesh.patches()) {
+    const scene::Material& material = scene.material(patch.surface);
+    s.exitance.push_back(material.exitance_of(patch.side));
+    s.reflectance.push_back(material.reflectance_of(patch.side));
+  }
+}
+
+/// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
+void solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySettings& settings, int channels, Run& run) {
+  const solvers::ColumnMatrix e = to_columns(s.exitance, channels), rho = to_columns(s.reflectance, channels);
+  const solvers::ColumnMatrix B = solve_system(K, e, rho, settings, run, s.solver);
+  solvers::SolverReport unreported;
+  const auto coarse = aggregated(K, run);
+  s.coarse_radiosity = to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, unreported)));
+  solvers::ColumnMatrix H(B.rows(), B.cols());
+  K.apply(B, H, run);
+  divide_by(H, K.gram());
+  s.radiosity = to_spectra(B);
+  s.irradiance = to_spectra(H);
+}
+
+/// Row sums made 1 where that was asked for; returns the relative change of K.
+double close(DenseSymmetric& K, bool closed, const RadiositySettings& settings, Run& run) {
+  if (!settings.restore_closure) return 0.0;
+  if (!closed) throw core::InputError("closure can be restored in closed scenes only: rays leave this one or reach black backs");
+  return restore_closure(K, run).correction;
+}
+
+}  // namespace
+
+RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
+  const double size = element_size_of(scene, settings);
+  const int channels = scene.channel_count();
+  std::vector<StageCost> stages;
+  StageClock timed(stages);
+  RadiositySolution s(timed("mesh", [&] { return mesh::quartered(mesh::uniform(scene, 2.0 * size)); }), size);
+  if (s.mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
+  require_memory(scene, static_cast<double>(s.mesh.size()), settings);
+  set_materials(s, scene);
+  const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
+  DenseSymmetric K(areas_of(s.mesh));
+  timed("form factors", [&] {
+    const auto method = make_form_factor_method(
+        settings.form_factors, {scene, s.mesh.patches(), *rays, run.seed, settings.quadrature_tolerance, settings.visibility_rays});
+    s.pairs = assemble(*method, s.mesh.patches(), K, run);
+  });
+  const std::vector<double> row_sum_before = K.row_sums(run);
+  timed("closure", [&] {
+    const std::vector<Spectrum> by_area_alone(s.exitance.size());
+    s.closed = cast_lost_rays(scene, s.mesh.patches(), by_area_alone, *rays, run).lost == 0;
+    s.closure_correction = close(K, s.closed, settings, run);
+    s.row_sum = settings.restore_closure ? K.row_sums(run) : row_sum_before;
+  });
+  s.rows = summary_of(s.row_sum, K.gram());
+  timed("solve", [&] { solve_both(s, K, settings, channels, run); });
+  timed("error estimate", [&] { estimate_errors(s, {K, row_sum_before, settings.quadrature_tolerance}, channels, run); });
+  timed("energy balance", [&] {
+    const LostRays lost = cast_lost_rays(scene, s.mesh.patches(), s.radiosity, *rays, run);
+    s.closed = s.closed && lost.lost == 0;
+    s.energy = energy_balance(s, lost);
+  });
+  s.bytes = K.bytes();
+  s.stages = std::move(stages);
+  return s;
+}
+
+}  // namespace interflect::fem

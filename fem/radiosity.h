@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/estimate.h"
+#include "fem/form_factor/method.h"
+#include "mesh/element_mesh.h"
+#include "solvers/solver.h"
+
+namespace interflect::fem {
+
+struct RadiositySettings {
+  double element_size = 0;  ///< longest edge [m]; 0: for about 2 500 elements
+  std::string form_factors = "gauss-lambert";
+  std::string solver = "gauss-seidel";
+  std::string intersector = "embree";
+  solvers::StoppingRule stopping;
+  double quadrature_tolerance = 1e-3;
+  int visibility_rays = 16;
+  bool restore_closure = false;  ///< project K onto symmetric matrices with the row sums of a closed scene
+  double max_memory = 4e9;       ///< [bytes]
+};
+
+/// The element size asked for, or the default one [m].
+double element_size_of(const scene::Scene& scene, const RadiositySettings& settings);
+
+/// What a solve will need, said before it starts.
+struct Forecast {
+  double elements, bytes, seconds;
+};
+/// @throws core::InputError  above `max_memory`, saying which element size would fit
+Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run);
+
+/// @throws core::InputError  as `forecast`, where this many elements need more than `max_memory`
+void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings);
+
+struct StageCost {
+  std::string stage;
+  double seconds;
+};
+
+/// Where the flux goes [W | lm], per channel:  emitted = absorbed + escaped + on_backs + form_factor_error + residual.
+struct EnergyBalance {
+  Spectrum emitted, absorbed;
+  Spectrum escaped, on_backs;  ///< what leaves the elements and reaches none, by rays: through openings, and on black backs
+  Spectrum split_error;        ///< standard error of escaped + on_backs
+  Spectrum form_factor_error;  ///< sum_i (1 - row sum_i) A_i B_i - escaped - on_backs: what row sums and rays disagree about
+  Spectrum residual;           ///< emitted - absorbed - sum_i (1 - row sum_i) A_i B_i: solver error alone
+};
+
+struct RowSums {
+  double mean, lowest, highest;  ///< of sum_j F_ij; 1 in a closed scene
+};
+
+/// A solved scene: constants on elements, all per element in the order of the mesh.
+struct RadiositySolution {
+  RadiositySolution(mesh::ElementMesh elements, double longest_edge) : mesh(std::move(elements)), element_size(longest_edge) {}
+
+  mesh::ElementMesh mesh;
+  double element_size;
+  std::vector<Spectrum> exitance, reflectance, radiosity, irradiance;
+  std::vector<Spectrum> irradiance_error;  ///< estimated bound on |bias| of the element's mean H (discretisation, quadrature, solver)
+  std::vector<Spectrum> irradiance_noise;  ///< standard error of H from sampled visibility
+  std::vector<Spectrum> field_error;       ///< |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h
+  std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size, on this mesh (its parent's value)
+  std::vector<double> row_sum;             ///< sum_j F_ij
+  bool closed = false;                     ///< no ray that left an element was lost
+  solvers::SolverReport solver;
+  PairCounts pairs;
+  RowSums rows;
+  double closure_correction = 0;  ///< ||K' - K|| / ||K||, Frobenius; 0 where none was asked for
+  EnergyBalance energy;
+  std::vector<StageCost> stages;
+  double bytes = 0;  ///< memory of the operator
+};
+
+/// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their children's, so
+/// that visibility is sampled once), and estimates the error from the difference (error_estimate.h).
+/// @throws core::InputError   no elements, too little memory, unknown names, closure asked of a scene that is not closed
+/// @throws core::Interrupted
+RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);
+
+}  // namespace interflect::fem

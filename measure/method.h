@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/estimate.h"
+#include "core/run.h"
+#include "measure/measurement.h"
+#include "scene/scene.h"
+
+namespace interflect::measure {
+
+/// What a method can find and what it promises; only answers that both sides promise are compared.
+struct Capabilities {
+  bool unbiased = false;    ///< expected value right for any number of samples
+  bool consistent = false;  ///< right in the limit of its refinement
+};
+
+/// A way to answer measurements: radiosity by finite elements, and every Monte Carlo integrator.
+class Method {
+ public:
+  virtual ~Method() = default;
+  virtual std::string name() const = 0;
+  virtual Capabilities capabilities() const = 0;
+  /// One estimate per measurement, in their order.  The whole list at once: some methods answer all from the same samples.
+  virtual std::vector<Estimate> answer(const scene::Scene& scene, std::span<const Measurement> asked, Run& run) const = 0;
+};
+
+}  // namespace interflect::measure

@@ -1,0 +1,52 @@
+#include <cmath>
+
+#include "core/error.h"
+#include "mesh/bisection.h"
+#include "mesh/quad_grid.h"
+#include "mesh/uniform.h"
+
+namespace interflect::mesh {
+namespace {
+
+// Measured on `triangulate_refined`: its triangles' mean area is this much of max_edge².
+constexpr double refined_triangle_area = 0.205;
+
+double predicted_on_front(const scene::Scene& scene, scene::SurfaceId id, double max_edge) {
+  const scene::Surface& surface = scene.surface(id);
+  if (const auto grid = quad_grid(surface, max_edge))
+    return static_cast<double>(grid->nu) * static_cast<double>(grid->nv);
+  if (surface.outline) return surface.facets + scene.area(id) / (refined_triangle_area * max_edge * max_edge);
+  double count = 0;
+  for (const scene::Facet& facet : scene.facets_of(id)) count += bisected_count(facet, max_edge);
+  return count;
+}
+
+/// Two significant digits.
+double rounded(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
+  return std::round(x / unit) * unit;
+}
+
+}  // namespace
+
+double predicted_elements(const scene::Scene& scene, double max_edge) {
+  if (!(max_edge > 0)) throw core::PreconditionError("predicted_elements: the longest edge must be positive");
+  double count = 0;
+  for (const scene::SurfaceId id : scene.surface_ids())
+    count += predicted_on_front(scene, id, max_edge) * (scene.material(id).active(scene::Side::back) ? 2 : 1);
+  return count;
+}
+
+double edge_for(const scene::Scene& scene, double elements) {
+  if (!(elements > 0)) throw core::PreconditionError("edge_for: a positive number of elements expected");
+  double high = scene.box().diagonal().norm(), low = high;
+  if (!(high > 0)) throw core::PreconditionError("edge_for: the scene has no extent");
+  while (predicted_elements(scene, low) < elements) low *= 0.5;
+  while (high / low > 1.005) {
+    const double middle = std::sqrt(low * high);
+    (predicted_elements(scene, middle) < elements ? high : low) = middle;
+  }
+  return rounded(std::sqrt(low * high));
+}
+
+}  // namespace interflect::mesh

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "measure/measurement.h"
+#include "montecarlo/path_estimator.h"
+
+namespace interflect::montecarlo {
+
+/// One sample of a pixel's radiance: a point uniform on the pixel, so that the mean is over its area on the image plane.
+Spectrum pixel_sample(const scene::Camera& camera, int x, int y, const PathEstimator& paths, core::RandomNumbers& numbers);
+
+/// A measurement made ready to be sampled.
+class MeasurementSampler {
+ public:
+  /// @throws core::InputError  for a patch without area, a direction that is not a unit vector, or a camera or pixel that
+  ///                           the scene does not have
+  MeasurementSampler(const scene::Scene& scene, const measure::Measurement& asked);
+
+  /// One whole path from one place: an unbiased estimate of the measurement in its unit.
+  ///   patch: H(x), x uniform;   flux: A H(x), x uniform on all patches together;   point: H;   pixel: L.
+  Spectrum sample(const PathEstimator& paths, core::RandomNumbers& numbers) const;
+
+  /// What an irradiance of 1 everywhere would measure: 1, the area of a flux [m²], 1 / pi for a pixel [1/sr].
+  double scale() const { return scale_; }
+
+ private:
+  enum class Kind : std::uint8_t { area, point, pixel };
+  struct Region {
+    scene::SurfacePatch patch;
+    Vec3 normal;
+  };
+  void set_regions(std::span<const scene::SurfacePatch> patches);
+
+  Kind kind_ = Kind::area;
+  double scale_ = 1;
+  std::vector<Region> regions_;  ///< area: where x lies
+  AliasTable pick_;              ///< among the regions, by area
+  Receiver point_{};
+  const scene::Camera* camera_ = nullptr;
+  int x_ = 0, y_ = 0;
+};
+
+}  // namespace interflect::montecarlo

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+
+#include "core/run.h"
+#include "montecarlo/measurement_sampler.h"
+#include "montecarlo/tally.h"
+
+namespace interflect::montecarlo {
+
+/// Samples 0 .. counts[m] - 1 of every measurement m, sample k being keyed by (seed, m, k).
+///
+/// Cut into blocks of samples, so that a single measurement keeps all threads busy; the blocks of a measurement are merged in
+/// their order.  All measurements advance together: when the run is stopped, each has about the same part of its samples.
+/// @throws core::Interrupted  if it is stopped before every measurement has two samples
+std::vector<Tally> sample_all(std::span<const MeasurementSampler> measurements, std::span<const std::uint64_t> counts,
+                              const PathEstimator& paths, std::uint64_t seed, Run& run);
+
+/// How exact the answers shall be; see PathTracerSettings.
+struct SamplingTarget {
+  double relative;             ///< standard error of the weighted value, relative to it
+  double floor;                ///< or absolute: part of the scene's mean irradiance
+  std::uint64_t fewest, most;  ///< samples per measurement
+};
+
+struct SamplingPlan {
+  std::vector<std::uint64_t> counts;  ///< samples per measurement
+  std::uint64_t spent = 0;            ///< samples of the pilots
+};
+
+/// How many samples each measurement needs, from pilots that are thrown away: so the answer stays unbiased [Kirk and Arvo 1991].
+///
+///   n = 1.5 s² / max(relative |mean|, floor H_scene scale)²,   mean and s² of the pilot's weighted samples;
+///   3 w / n = floor H_scene scale  where all of the pilot scored zero (rule of three, as in Tally::estimate).
+///
+/// The first pilot has 256 samples.  Where it asks for more than eight times as many, a second one of n / 8 samples decides: s²
+/// of few samples of a skewed distribution is too often far too small.  The factor 1.5 covers what noise is left, so that nearly
+/// all measurements reach their target.
+SamplingPlan plan_samples(const scene::Scene& scene, std::span<const MeasurementSampler> measurements,
+                                        const PathEstimator& paths, const SamplingTarget& target, Run& run);
+
+/// Mean irradiance of all surfaces that can reflect if the scene were closed and well mixed: Phi / sum A (1 - rho), in weighted
+/// channels [lx | W/m²].  A scale, not an answer.
+double mean_irradiance_scale(const scene::Scene& scene);
+
+inline constexpr std::uint64_t pilot_samples = 256;
+
+}  // namespace interflect::montecarlo

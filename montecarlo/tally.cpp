@@ -1,0 +1,29 @@
+#include "montecarlo/tally.h"
+
+namespace interflect::montecarlo {
+
+void Tally::add(const Spectrum& sample, std::uint64_t index) {
+  const bool fine = sample.is_finite();
+  if (!fine && not_finite++ == 0) first_not_finite = index;
+  moments.add(fine ? sample : Spectrum::zero());
+}
+
+void Tally::merge(const Tally& other) {
+  moments.merge(other.moments);
+  if (not_finite == 0) first_not_finite = other.first_not_finite;
+  not_finite += other.not_finite;
+}
+
+Estimate Tally::estimate(const Spectrum& largest) const {
+  Estimate found = moments.unbiased();
+  for (int c = 0; c < Spectrum::capacity; ++c)
+    if (found.value[c] == 0 && found.standard_error[c] == 0)
+      found.standard_error[c] = 3 * largest[c] / static_cast<double>(found.samples);
+  if (not_finite > 0) {
+    found.error_bound = Spectrum(std::numeric_limits<double>::infinity());
+    found.claim = Claim::none;
+  }
+  return found;
+}
+
+}  // namespace interflect::montecarlo

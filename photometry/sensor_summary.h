@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/estimate.h"
+#include "measure/sensor_points.h"
+#include "scene/scene.h"
+
+namespace interflect::photometry {
+
+/// What a lighting engineer reads off a sensor: irradiance or illuminance over its points, weighted over the channels [W/m² | lx].
+struct SensorSummary {
+  std::string sensor;
+  int points = 0;
+  double minimum = 0, mean = 0, maximum = 0;
+  double error = 0;  ///< of the mean: mean error bound + 1.96 standard errors of the mean; points are taken as independent in noise
+  double uniformity() const { return mean > 0 ? minimum / mean : 0; }  ///< U0 = E_min / E_avg
+};
+
+/// One summary a sensor, in the order of their first points.  @param values  one estimate a point
+std::vector<SensorSummary> summarise(const scene::Scene& scene, std::span<const measure::SensorPoint> points,
+                                     std::span<const Estimate> values);
+
+}  // namespace interflect::photometry

@@ -1,0 +1,164 @@
+#include <embree3/rtcore.h>
+
+#include <cfenv>
+#include <limits>
+#include <new>
+
+#include "core/error.h"
+#include "raycast/casters.h"
+#include "raycast/scene_frame.h"
+
+namespace interflect::raycast {
+
+namespace {
+
+constexpr double relative_offset = 0x1p-18;  ///< of the scene's largest dimension: 128 units in the last place of a coordinate
+constexpr unsigned every_mask = ~0u;
+constexpr std::size_t lanes = 8;
+
+/// Building leaves the caller's floating point modes (rounding, flushing of denormals) as they were.
+class KeepFloatingPointModes {
+ public:
+  KeepFloatingPointModes() { std::fegetenv(&modes_); }
+  ~KeepFloatingPointModes() { std::fesetenv(&modes_); }
+  KeepFloatingPointModes(const KeepFloatingPointModes&) = delete;
+  KeepFloatingPointModes& operator=(const KeepFloatingPointModes&) = delete;
+
+ private:
+  std::fenv_t modes_{};
+};
+
+template <class Handle, void (*release)(Handle*)>
+struct Release {
+  void operator()(Handle* handle) const { release(handle); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, Release<RTCDeviceTy, rtcReleaseDevice>>;
+using EmbreeScene = std::unique_ptr<RTCSceneTy, Release<RTCSceneTy, rtcReleaseScene>>;
+
+void require_no_error(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(error)));
+}
+
+/// Coordinates about the scene's centre, its largest dimension being 1: Embree computes in single precision.
+class ToUnitBox {
+ public:
+  explicit ToUnitBox(const SceneFrame& frame)
+      : centre_(frame.centre), scale_(1 / frame.size), offset_(frame.offset(relative_offset) / frame.size) {}
+
+  Vec3 operator()(const Vec3& x) const { return (x - centre_) * scale_; }
+  Vec3 operator()(const Vec3& x, const Vec3& leaves) const { return (x - centre_) * scale_ + offset_ * leaves; }
+
+ private:
+  Vec3 centre_;
+  double scale_, offset_;
+};
+
+class EmbreeCaster final : public RayCaster {
+ public:
+  explicit EmbreeCaster(const scene::Scene& scene)
+      : facets_(scene.facets), frame_(frame_of(scene)), to_unit_(frame_), device_(rtcNewDevice(nullptr)) {
+    if (!device_) require_no_error(nullptr);
+    const KeepFloatingPointModes keep;
+    bvh_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(bvh_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(bvh_.get(), RTC_BUILD_QUALITY_MEDIUM);
+    if (!facets_.empty()) attach_facets();
+    rtcCommitScene(bvh_.get());
+    require_no_error(device_.get());
+  }
+
+  std::string name() const override { return "embree"; }
+  double offset() const override { return frame_.offset(relative_offset); }
+
+  std::optional<scene::SurfacePoint> closest(const Ray& ray) const override {
+    RTCRayHit query;
+    query.ray = ray_from(to_unit_(ray.origin, ray.leaves), ray.direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(bvh_.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return surface_point(facets_[query.hit.primID], query.hit.primID, ray.direction, query.hit.u, query.hit.v);
+  }
+
+  bool occluded(const Segment& segment) const override {
+    // The direction is the whole segment, from offset end to offset end: it runs over t in [0, 1].
+    const Vec3 from = to_unit_(segment.from, segment.from_normal), to = to_unit_(segment.to, segment.to_normal);
+    RTCRay query = ray_from(from, to - from, 1.0F);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(bvh_.get(), &context, &query);
+    return query.tfar < 0;
+  }
+
+  void occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const override {
+    if (blocked.size() < segments.size()) throw core::PreconditionError("occluded: one answer per segment expected");
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    RTCRay8 query;
+    for (std::size_t lane = 0; lane < lanes; ++lane) query.tnear[lane] = query.time[lane] = 0;
+    alignas(32) std::array<int, lanes> valid;
+    valid.fill(-1);
+    for (std::size_t first = 0; first < segments.size(); first += lanes) {
+      const std::size_t used = std::min(lanes, segments.size() - first);
+      for (std::size_t lane = 0; lane < used; ++lane) set_lane(query, lane, segments[first + lane]);
+      for (std::size_t lane = used; lane < lanes; ++lane) valid[lane] = 0, set_lane(query, lane, segments[first]);
+      rtcOccluded8(valid.data(), bvh_.get(), &context, &query);
+      for (std::size_t lane = 0; lane < used; ++lane) blocked[first + lane] = query.tfar[lane] < 0;
+    }
+  }
+
+ private:
+  static RTCRay ray_from(const Vec3& origin, const Vec3& direction, float tfar) {
+    const auto single = [](double x) { return static_cast<float>(x); };
+    return {single(origin.x()),    single(origin.y()),    single(origin.z()),    0, single(direction.x()), single(direction.y()),
+            single(direction.z()), 0, tfar, every_mask, 0, 0};
+  }
+
+  void set_lane(RTCRay8& query, std::size_t lane, const Segment& segment) const {
+    const Vec3 from = to_unit_(segment.from, segment.from_normal), to = to_unit_(segment.to, segment.to_normal);
+    query.org_x[lane] = static_cast<float>(from.x());
+    query.org_y[lane] = static_cast<float>(from.y());
+    query.org_z[lane] = static_cast<float>(from.z());
+    query.dir_x[lane] = static_cast<float>(to.x() - from.x());
+    query.dir_y[lane] = static_cast<float>(to.y() - from.y());
+    query.dir_z[lane] = static_cast<float>(to.z() - from.z());
+    query.tfar[lane] = 1.0F;
+    query.mask[lane] = every_mask;
+    query.id[lane] = query.flags[lane] = 0;
+  }
+
+  void attach_facets() {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const auto buffer = [&](RTCBufferType type, RTCFormat format, std::size_t items) {
+      void* data = rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(float), items);
+      require_no_error(device_.get());
+      return data;
+    };
+    // Corners are not shared: equal corners become equal floats, which is all that watertightness asks for.
+    auto* x = static_cast<float*>(buffer(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * facets_.size()));
+    auto* corner_index = static_cast<unsigned*>(buffer(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, facets_.size()));
+    for (const scene::Facet& facet : facets_)
+      for (const Vec3& corner : facet.corner)
+        for (const double coordinate : to_unit_(corner)) *x++ = static_cast<float>(coordinate);
+    for (unsigned i = 0; i < 3 * facets_.size(); ++i) corner_index[i] = i;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(bvh_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  std::span<const scene::Facet> facets_;
+  SceneFrame frame_;
+  ToUnitBox to_unit_;
+  Device device_;
+  EmbreeScene bvh_;
+};
+
+}  // namespace
+
+std::unique_ptr<RayCaster> make_embree_caster(const scene::Scene& scene) { return std::make_unique<EmbreeCaster>(scene); }
+
+}  // namespace interflect::raycast

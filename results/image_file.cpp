@@ -1,0 +1,34 @@
+#include "results/image_file.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "results/atomic_file.h"
+
+namespace interflect::results {
+
+namespace {
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+}  // namespace
+
+void require_image_extension(const std::filesystem::path& file) {
+  if (const std::string extension = extension_of(file); extension != ".exr" && extension != ".png")
+    throw core::InputError(file.string(), "an image's name ends in .exr (radiance) or .png (for looking)");
+}
+
+void write_image(const std::filesystem::path& file, const core::Image& image, const ToneMapping& tone) {
+  require_image_extension(file);
+  if (extension_of(file) == ".exr")
+    write_atomically(file, exr_bytes(image));
+  else
+    write_png(file, tone_mapped(image, tone));
+}
+
+}  // namespace interflect::results

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/image.h"
+#include "results/tone_mapping.h"
+
+namespace interflect::results {
+
+/// OpenEXR file contents: every channel under its name (r, g, b become R, G, B, which viewers expect), 32-bit floats as they are, ZIP.
+std::string exr_bytes(const core::Image& image);
+/// Channels in the order in which they were written, where exr_bytes wrote them.  @throws core::InputError  naming the file
+core::Image read_exr(const std::filesystem::path& file);
+
+/// PNG file contents, 8 bits a channel, of an image of 1, 3 or 4 channels for display: [0, 1], already encoded; clipped.
+std::string png_bytes(const core::Image& display);
+
+/// By the extension: .exr keeps the radiance; .png is tone mapped for looking.
+/// @throws core::InputError  for another extension, or if the file cannot be written
+void write_image(const std::filesystem::path& file, const core::Image& image, const ToneMapping& tone = {});
+
+/// For images that are already meant for display.
+void write_png(const std::filesystem::path& file, const core::Image& display);
+
+/// Refuses a name that write_image would refuse, before the work is done.
+void require_image_extension(const std::filesystem::path& file);
+
+}  // namespace interflect::results

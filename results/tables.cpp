@@ -1,0 +1,81 @@
+#include "results/tables.h"
+
+#include "core/error.h"
+#include "results/atomic_file.h"
+#include "results/csv.h"
+
+namespace interflect::results {
+
+Spectrum error_95(const Estimate& estimate) { return estimate.error_bound + estimate.standard_error * 1.959963984540054; }
+
+std::string side_name(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side) {
+  return scene.surface(surface).name + (side == scene::Side::back ? "/back" : "");
+}
+
+std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                                      std::span<const Spectrum> radiosity, std::span<const Spectrum> irradiance,
+                                      std::span<const Spectrum> error) {
+  const auto size = static_cast<std::size_t>(mesh.size());
+  if (radiosity.size() != size || irradiance.size() != size || error.size() != size)
+    throw core::PreconditionError("surface_means: one value per element expected");
+  std::vector<SurfaceRow> rows;
+  for (const mesh::ElementMesh::Part& part : mesh.parts()) {
+    SurfaceRow row{side_name(scene, part.surface, part.side), 0, {}, {}, {}};
+    for (std::size_t i = part.first; i < std::size_t{part.first} + part.count; ++i) {
+      const double area = mesh.patches()[i].area;
+      row.area += area;
+      row.radiosity += radiosity[i] * area;
+      row.irradiance += irradiance[i] * area;
+      row.error += error[i] * area;
+    }
+    row.radiosity /= row.area;
+    row.irradiance /= row.area;
+    row.error /= row.area;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side, const Estimate& irradiance) {
+  const scene::Material& material = scene.material(surface);
+  const Spectrum rho = material.reflectance_of(side);
+  Spectrum error = error_95(irradiance);
+  for (int c = 0; c < Spectrum::capacity; ++c) error[c] = rho[c] == 0 ? 0 : rho[c] * error[c];
+  return {side_name(scene, surface, side), scene.area(surface), material.exitance_of(side) + rho * irradiance.value,
+          irradiance.value, error};
+}
+
+std::string surfaces_csv(std::span<const SurfaceRow> rows, int channels) {
+  Csv csv;
+  csv.text("name").text("area").headings("radiosity", channels).headings("irradiance", channels).headings("error", channels);
+  csv.end_line();
+  for (const SurfaceRow& row : rows) {
+    csv.text(row.name).number(row.area).numbers(row.radiosity, channels).numbers(row.irradiance, channels);
+    csv.numbers(row.error, channels).end_line();
+  }
+  return csv.str();
+}
+
+void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, int channels) {
+  write_atomically(file, surfaces_csv(rows, channels));
+}
+
+std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels) {
+  if (points.size() != values.size()) throw core::PreconditionError("sensors_csv: one value per point expected");
+  Csv csv;
+  for (const char* heading : {"sensor", "index", "x", "y", "z", "nx", "ny", "nz"}) csv.text(heading);
+  csv.headings("value", channels).headings("error", channels).end_line();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    csv.text(points[i].sensor).integer(points[i].index);
+    for (const Vec3& v : {points[i].at.position, points[i].at.normal}) csv.number(v.x()).number(v.y()).number(v.z());
+    csv.numbers(values[i].value, channels).numbers(error_95(values[i]), channels).end_line();
+  }
+  return csv.str();
+}
+
+void write_sensors_csv(const std::filesystem::path& file, std::span<const measure::SensorPoint> points,
+                       std::span<const Estimate> values, int channels) {
+  write_atomically(file, sensors_csv(points, values, channels));
+}
+
+}  // namespace interflect::results

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/estimate.h"
+#include "measure/sensor_points.h"
+#include "mesh/element_mesh.h"
+#include "scene/scene.h"
+
+/// The tables of a run; every method writes the same columns, so that runs join on the name.
+namespace interflect::results {
+
+/// Half the width of a 95 % interval: error_bound + 1.96 standard errors, per channel.  Infinite where the bound is.
+Spectrum error_95(const Estimate& estimate);
+
+/// A side of a surface: area means [W/m² | lm/m², lx].
+struct SurfaceRow {
+  std::string name;  ///< NAME, or NAME/back
+  double area;       ///< [m²]
+  Spectrum radiosity, irradiance;
+  Spectrum error;    ///< of the radiosity
+};
+
+/// "NAME", or "NAME/back" for a back.
+std::string side_name(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side);
+
+/// Means over each part of a mesh, from values per element.  The error of a mean is at most the mean of the errors.
+std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                                      std::span<const Spectrum> radiosity, std::span<const Spectrum> irradiance,
+                                      std::span<const Spectrum> error);
+
+/// A row from an estimate of the mean irradiance of a side: B = E + rho H, and rho times its error.
+SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side, const Estimate& irradiance);
+
+/// `name,area,radiosity_0,..,irradiance_0,..,error_0,..`, a line a row.
+std::string surfaces_csv(std::span<const SurfaceRow> rows, int channels);
+void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, int channels);
+
+/// `sensor,index,x,y,z,nx,ny,nz,value_0,..,error_0,..`, a line a point.
+std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels);
+void write_sensors_csv(const std::filesystem::path& file, std::span<const measure::SensorPoint> points,
+                       std::span<const Estimate> values, int channels);
+
+}  // namespace interflect::results

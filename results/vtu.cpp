@@ -1,0 +1,155 @@
+#include "results/vtu.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <map>
+
+#include "core/error.h"
+#include "core/format.h"
+#include "results/atomic_file.h"
+
+static_assert(std::endian::native == std::endian::little, "the .vtu writer writes the machine's own byte order as little-endian");
+
+namespace interflect::results {
+
+namespace {
+
+constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9;
+
+struct Grid {
+  std::vector<double> points;
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+};
+
+Grid grid_of(const mesh::ElementMesh& mesh) {
+  Grid grid;
+  for (const mesh::ElementMesh::Part& part : mesh.parts()) {
+    std::map<std::array<double, 3>, std::int64_t> known;
+    for (const scene::SurfacePatch& patch : mesh.patches().subspan(part.first, part.count)) {
+      for (const Vec3& p : patch.ring()) {
+        const auto next = static_cast<std::int64_t>(grid.points.size() / 3);
+        const auto [at, fresh] = known.try_emplace({p.x(), p.y(), p.z()}, next);
+        if (fresh) grid.points.insert(grid.points.end(), {p.x(), p.y(), p.z()});
+        grid.connectivity.push_back(at->second);
+      }
+      grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+      grid.types.push_back(patch.corners == 3 ? vtk_triangle : vtk_quad);
+    }
+  }
+  return grid;
+}
+
+template <class T>
+const char* type_name();
+template <>
+const char* type_name<double>() { return "Float64"; }
+template <>
+const char* type_name<std::int64_t>() { return "Int64"; }
+template <>
+const char* type_name<std::int32_t>() { return "Int32"; }
+template <>
+const char* type_name<std::uint8_t>() { return "UInt8"; }
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+/// Inline binary: the number of bytes (UInt64) and the bytes, in one run of base64.
+template <class T>
+void append_array(std::string& out, const std::string& name, const std::vector<T>& values, int components,
+                  const std::vector<std::string>& component_names = {}) {
+  out += core::format("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"", type_name<T>(), escaped(name).c_str(),
+                      components);
+  for (std::size_t c = 0; c < component_names.size(); ++c)
+    out += core::format(" ComponentName%zu=\"%s\"", c, escaped(component_names[c]).c_str());
+  const std::uint64_t size = values.size() * sizeof(T);
+  std::string bytes(sizeof size + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  out += " format=\"binary\">\n" + base64(bytes) + "\n</DataArray>\n";
+}
+
+void append_field(std::string& out, const CellField& field, std::size_t elements) {
+  std::visit(
+      [&](const auto& values) {
+        const auto components = static_cast<std::size_t>(field.components);
+        if (field.components < 1 || values.size() != elements * components ||
+            (!field.component_names.empty() && field.component_names.size() != components))
+          throw core::PreconditionError("vtu: field " + field.name + " does not fit the mesh");
+        append_array(out, field.name, values, field.components, field.component_names);
+      },
+      field.values);
+}
+
+}  // namespace
+
+std::string base64(std::string_view bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t have = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < have ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= have ? digits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return out;
+}
+
+CellField scalar_field(std::string name, std::vector<double> values) { return {std::move(name), std::move(values), 1, {}}; }
+
+CellField spectrum_field(std::string name, std::span<const Spectrum> values, const std::vector<std::string>& channels) {
+  std::vector<double> flat;
+  flat.reserve(values.size() * channels.size());
+  for (const Spectrum& s : values) flat.insert(flat.end(), s.data(), s.data() + channels.size());
+  const int components = static_cast<int>(channels.size());
+  return {std::move(name), std::move(flat), components, components > 1 ? channels : std::vector<std::string>{}};
+}
+
+std::vector<CellField> id_fields(const mesh::ElementMesh& mesh) {
+  std::vector<std::int64_t> element;
+  std::vector<std::int32_t> surface, side;
+  for (const scene::SurfacePatch& patch : mesh.patches()) {
+    element.push_back(static_cast<std::int64_t>(element.size()));
+    surface.push_back(static_cast<std::int32_t>(patch.surface.value));
+    side.push_back(patch.side == scene::Side::back ? 1 : 0);
+  }
+  return {{"element", std::move(element), 1, {}}, {"surface", std::move(surface), 1, {}}, {"side", std::move(side), 1, {}}};
+}
+
+std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields) {
+  const Grid grid = grid_of(mesh);
+  const auto cells = static_cast<std::size_t>(mesh.size());
+  std::string out =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<UnstructuredGrid>\n";
+  out += core::format("<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n<Points>\n", grid.points.size() / 3, cells);
+  append_array(out, "Points", grid.points, 3);
+  out += "</Points>\n<Cells>\n";
+  append_array(out, "connectivity", grid.connectivity, 1);
+  append_array(out, "offsets", grid.offsets, 1);
+  append_array(out, "types", grid.types, 1);
+  out += "</Cells>\n<CellData>\n";
+  for (const CellField& field : fields) append_field(out, field, cells);
+  out += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return out;
+}
+
+void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields) {
+  write_atomically(file, vtu_text(mesh, fields));
+}
+
+}  // namespace interflect::results

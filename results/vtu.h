@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/spectrum.h"
+#include "mesh/element_mesh.h"
+
+namespace interflect::results {
+
+/// Values of the elements of a mesh under one name.
+struct CellField {
+  using Values = std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>>;
+
+  std::string name;
+  Values values;                        ///< [element * components + component]
+  int components = 1;
+  std::vector<std::string> component_names;  ///< empty, or one a component
+};
+
+CellField scalar_field(std::string name, std::vector<double> values);
+/// One component per channel, under the channels' names; a plain scalar where there is one channel.
+CellField spectrum_field(std::string name, std::span<const Spectrum> values, const std::vector<std::string>& channels);
+/// element (0 ..), surface (position in the scene) and side (0 front, 1 back).
+std::vector<CellField> id_fields(const mesh::ElementMesh& mesh);
+
+/// A mesh of triangles and quads with cell data as VTK's XML UnstructuredGrid (version 1.0, little-endian, base64), for ParaView and
+/// everything else that reads VTK.  Corners that elements of one side of a surface share are written once.
+/// @throws core::PreconditionError  if a field's size is not elements x components
+std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields);
+void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields);
+
+/// Base64 of RFC 4648, with padding.
+std::string base64(std::string_view bytes);
+
+}  // namespace interflect::results

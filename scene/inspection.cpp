@@ -1,0 +1,37 @@
+#include "scene/inspection.h"
+
+#include <algorithm>
+
+#include "scene/inspection_parts.h"
+
+namespace interflect::scene {
+
+using Kind = Inspection::Finding::Kind;
+
+bool Inspection::closed() const {
+  return std::none_of(findings.begin(), findings.end(), [](const Finding& f) { return f.kind == Kind::gap; });
+}
+
+std::string describe(Kind kind) {
+  switch (kind) {
+    case Kind::gap: return "open edge";
+    case Kind::inconsistent_normals: return "neighbours face opposite ways";
+    case Kind::duplicate_faces: return "duplicate faces";
+    case Kind::coplanar_overlap: return "coplanar faces overlap";
+  }
+  return "";
+}
+
+Inspection inspect(const Scene& scene) {
+  Inspection inspection;
+  if (scene.facets.empty()) return inspection;
+  const double tolerance = 1e-6 * scene.box().diagonal().norm();
+  find_edge_faults(scene, tolerance, inspection);
+  find_coplanar_faces(scene, tolerance, inspection);
+  std::stable_sort(inspection.findings.begin(), inspection.findings.end(), [](const auto& a, const auto& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.size > b.size;
+  });
+  return inspection;
+}
+
+}  // namespace interflect::scene

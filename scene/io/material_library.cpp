@@ -1,0 +1,142 @@
+#include "scene/io/material_library.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/format.h"
+#include "scene/io/text_file.h"
+
+namespace interflect::scene::io {
+namespace {
+
+void require_reflectance(const JsonNode& node) {
+  if (node.number_in(0, 1) == 1) node.fail("a reflectance of 1 is not below 1: every surface absorbs some light");
+}
+
+void require_emission(const JsonNode& node) {
+  if (node.number() < 0) node.fail(core::format("%.9g is negative: a surface cannot emit less than nothing", node.number()));
+}
+
+template <class Check>
+Spectrum read_checked(const JsonNode& node, int channels, const Check& check) {
+  if (node.is_array())
+    for (const JsonNode& value : node.items()) check(value);
+  else if (node.is_number())
+    check(node);
+  return read_spectrum(node, channels);
+}
+
+void require_known(const JsonNode& node) {
+  if (node.has("type") && node.at("type").string() != "diffuse") {
+    const std::string type = node.at("type").string();
+    if (type == "glass" || type == "mirror" || type == "specular" || type == "glossy" || type == "translucent")
+      node.at("type").fail("this version does not know the type '" + type + "': only 'diffuse'");
+    node.at("type").fail(unknown_word("the type", type, {"diffuse"}));
+  }
+  if (node.has("transmittance")) node.at("transmittance").fail("this version does not know transmittance: materials are opaque");
+  node.only({"type", "reflectance", "exitance", "flux", "sides"});
+}
+
+}  // namespace
+
+Spectrum read_spectrum(const JsonNode& node, int channels) {
+  if (node.is_object()) node.fail("this version does not know spectra from files: a number or an array is expected");
+  Spectrum out;
+  if (node.is_number()) {
+    for (int c = 0; c < channels; ++c) out[c] = node.number();
+    return out;
+  }
+  if (!node.is_array()) node.fail("a number or an array of numbers is expected");
+  const auto values = node.items();
+  if (values.size() != static_cast<std::size_t>(channels))
+    node.fail(core::format("%zu numbers for a scene of %d channel%s", values.size(), channels, channels == 1 ? "" : "s"));
+  for (int c = 0; c < channels; ++c) out[c] = values[static_cast<std::size_t>(c)].number();
+  return out;
+}
+
+std::vector<std::string> read_channels(const JsonNode& root) {
+  constexpr std::size_t most = Spectrum::capacity;
+  std::vector<std::string> names;
+  if (root.has("channels")) {
+    std::set<std::string> taken;
+    const auto nodes = root.at("channels").items(1);
+    if (nodes.size() > most)
+      root.at("channels").fail(core::format("%zu channels: this build holds at most %zu", nodes.size(), most));
+    for (const JsonNode& node : nodes) {
+      names.push_back(node.string());
+      if (names.back().empty()) node.fail("a channel needs a name");
+      if (!taken.insert(names.back()).second) node.fail("two channels have the name '" + shown_word(names.back()) + "'");
+    }
+    return names;
+  }
+  for (const auto& [name, material] : root.at("materials").members())
+    for (const char* key : {"reflectance", "exitance", "flux"}) {
+      if (!material.is_object() || !material.has(key) || !material.at(key).is_array()) continue;
+      const std::size_t count = material.at(key).items(1).size();
+      if (count > most)
+        material.at(key).fail(core::format("%zu channels: this build holds at most %zu", count, most));
+      if (count == 3) return {"r", "g", "b"};
+      if (count == 1) return {"y"};
+      for (std::size_t c = 1; c <= count; ++c) names.push_back(core::format("band_%zu", c));
+      return names;
+    }
+  return {"y"};
+}
+
+MaterialLibrary::MaterialLibrary(const JsonNode& materials, int channels) {
+  for (const auto& [name, node] : materials.members()) {
+    entries_.push_back(read_entry(name, node, channels));
+    names_.push_back(name);
+  }
+}
+
+MaterialLibrary::Entry MaterialLibrary::read_entry(const std::string& name, const JsonNode& node, int channels) {
+  require_known(node);
+  Entry entry;
+  entry.material.name = name;
+  entry.material.reflectance = read_checked(node.at("reflectance"), channels, require_reflectance);
+  if (node.has("exitance") && node.has("flux")) node.fail("exitance and flux exclude each other: give one");
+  if (node.has("exitance")) entry.material.exitance = read_checked(node.at("exitance"), channels, require_emission);
+  if (node.has("flux")) entry.flux = read_checked(node.at("flux"), channels, require_emission);
+  entry.says_sides = node.has("sides");
+  if (entry.says_sides) entry.material.sides = node.at("sides").one_of({"front", "both"}) == 0 ? Sides::front : Sides::both;
+  return entry;
+}
+
+MaterialId MaterialLibrary::use(SceneBuilder& builder, const JsonNode& name, Sides fallback) {
+  const auto at = std::find(names_.begin(), names_.end(), name.string());
+  if (at == names_.end()) name.fail(unknown_word("the material", name.string(), names_));
+  Entry& entry = entries_[static_cast<std::size_t>(at - names_.begin())];
+  const Sides sides = entry.says_sides ? entry.material.sides : fallback;
+  const std::size_t other = sides == Sides::front ? 1 : 0;
+  auto& id = entry.used[static_cast<std::size_t>(sides)];
+  if (!id) {
+    Material material = entry.material;
+    material.sides = sides;
+    if (entry.used[other]) material.name += sides == Sides::front ? " (front)" : " (both sides)";
+    id = builder.add_material(std::move(material));
+  }
+  return *id;
+}
+
+/// The flux of one name, over the surfaces of both its materials: to each in proportion to its area.
+void MaterialLibrary::share_flux(SceneBuilder& builder, const Entry& entry) {
+  std::array<double, 2> area{};
+  const Scene& scene = builder.scene();
+  for (const SurfaceId id : scene.surface_ids())
+    for (std::size_t s = 0; s < 2; ++s)
+      if (entry.used[s] && scene.surface(id).material == *entry.used[s]) area[s] += scene.area(id);
+  for (std::size_t s = 0; s < 2; ++s)
+    if (area[s] > 0) builder.share_flux(*entry.used[s], *entry.flux * (area[s] / (area[0] + area[1])));
+}
+
+void MaterialLibrary::finish(SceneBuilder& builder, const std::string& file) const {
+  for (const Entry& entry : entries_) {
+    if (entry.flux) share_flux(builder, entry);
+    if (!entry.used[0] && !entry.used[1])
+      builder.scene().warnings.push_back({file, "the material '" + shown_word(entry.material.name) + "' is not used"});
+  }
+}
+
+}  // namespace interflect::scene::io

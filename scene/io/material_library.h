@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/builder.h"
+#include "scene/io/json_document.h"
+
+namespace interflect::scene::io {
+
+/// Names of the channels: the key "channels", or what the lengths of the materials' arrays ask for: y, or r, g, b, or band_1 ..
+std::vector<std::string> read_channels(const JsonNode& root);
+
+/// A number for every channel, or an array with one for each.
+Spectrum read_spectrum(const JsonNode& node, int channels);
+
+/// The key "materials".  A material enters the scene when it is used, once for each meaning of "sides" where it does not say.
+class MaterialLibrary {
+ public:
+  MaterialLibrary(const JsonNode& materials, int channels);
+
+  /// @param name      where it is named: an unknown one is refused there
+  /// @param fallback  sides of a material that does not say
+  MaterialId use(SceneBuilder& builder, const JsonNode& name, Sides fallback);
+
+  /// Shares each flux over the surfaces that bear it, now that they are all there, and notes what was never used.
+  void finish(SceneBuilder& builder, const std::string& file) const;
+
+ private:
+  struct Entry {
+    Material material;
+    bool says_sides = false;
+    std::optional<Spectrum> flux;  ///< [W | lm]
+    std::array<std::optional<MaterialId>, 2> used;  ///< by Sides
+  };
+  static Entry read_entry(const std::string& name, const JsonNode& node, int channels);
+  static void share_flux(SceneBuilder& builder, const Entry& entry);
+
+  std::vector<Entry> entries_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace interflect::scene::io

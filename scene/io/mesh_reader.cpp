@@ -1,0 +1,56 @@
+#include "scene/io/mesh_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <new>
+
+#include "core/error.h"
+#include "core/format.h"
+#include "scene/io/text_file.h"
+
+namespace interflect::scene::io {
+namespace {
+
+struct Format {
+  const char* extension;
+  MeshFile (*read)(const std::filesystem::path&, const std::string&);
+};
+
+constexpr std::array<Format, 5> formats = {{{".obj", read_obj},
+                                            {".ply", read_by_assimp},
+                                            {".stl", read_by_assimp},
+                                            {".gltf", read_by_assimp},
+                                            {".glb", read_by_assimp}}};
+
+const Format& format_of(const std::filesystem::path& file, const std::string& shown) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const Format& format : formats)
+    if (extension == format.extension) return format;
+  std::vector<std::string> known;
+  for (const Format& format : formats) known.emplace_back(format.extension);
+  throw core::InputError(shown, unknown_word("the mesh format", extension, known));
+}
+
+}  // namespace
+
+MeshFile read_mesh(const std::filesystem::path& file, const std::string& shown) {
+  const Format& format = format_of(file, shown);
+  MeshFile mesh;
+  try {
+    mesh = format.read(file, shown);
+  } catch (const std::bad_alloc&) {
+    throw core::InputError(shown, "the file asks for more memory than there is");
+  }
+  if (mesh.faces.empty())
+    throw core::InputError(shown, mesh.vertices.empty() ? "the file has no faces" : "the file has points or lines, and no faces");
+  for (std::size_t k = 0; k < mesh.vertices.size(); ++k)
+    if (!mesh.vertices[k].allFinite()) throw core::InputError(shown, core::format("vertex %zu is not finite", k + 1));
+  for (const std::uint32_t index : mesh.indices)
+    if (index >= mesh.vertices.size())
+      throw core::InputError(shown, core::format("a face refers to vertex %u of %zu", index + 1, mesh.vertices.size()));
+  return mesh;
+}
+
+}  // namespace interflect::scene::io

@@ -1,0 +1,54 @@
+#include "scene/io/placement.h"
+
+#include <array>
+#include <cmath>
+
+namespace interflect::scene::io {
+namespace {
+
+/// Cosine and sine of an angle in degrees, exact at multiples of 90.
+std::array<double, 2> cosine_sine(double degrees) {
+  const double quarter = std::remainder(degrees, 90.0);
+  const int quarters = static_cast<int>(std::lround(std::remainder(degrees - quarter, 360.0) / 90.0));
+  const double c = std::cos(quarter * (pi / 180)), s = std::sin(quarter * (pi / 180));
+  switch ((quarters + 4) % 4) {
+    case 1: return {-s, c};
+    case 2: return {-c, -s};
+    case 3: return {s, -c};
+    default: return {c, s};
+  }
+}
+
+Eigen::Matrix3d rotation(int axis, double degrees) {
+  const auto [c, s] = cosine_sine(degrees);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  Eigen::Matrix3d m = Eigen::Matrix3d::Identity();
+  m(u, u) = m(v, v) = c;
+  m(u, v) = -s;
+  m(v, u) = s;
+  return m;
+}
+
+}  // namespace
+
+LengthUnit read_unit(const JsonNode& node) {
+  constexpr std::array<LengthUnit, 5> units = {{{1, 1}, {1, 100}, {1, 1000}, {0.3048, 1}, {0.0254, 1}}};
+  return units[node.one_of({"m", "cm", "mm", "ft", "in"})];
+}
+
+Placement read_placement(const JsonNode& entry, const LengthUnit& unit) {
+  Placement placement;
+  placement.unit = unit;
+  if (!entry.has("transform")) return placement;
+  const JsonNode node = entry.at("transform");
+  node.only({"scale", "rotate_deg_xyz", "translate"});
+  if (node.has("rotate_deg_xyz")) {
+    const Vec3 angles = node.at("rotate_deg_xyz").vec3();
+    for (int axis = 0; axis < 3; ++axis) placement.linear = rotation(axis, angles[axis]) * placement.linear;
+  }
+  if (node.has("scale")) placement.linear *= node.at("scale").positive();
+  if (node.has("translate")) placement.translation = node.at("translate").vec3();
+  return placement;
+}
+
+}  // namespace interflect::scene::io

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/io/json_document.h"
+
+namespace interflect::scene::io {
+
+/// A unit of length: metres = x * factor / divisor, so that 280 cm is the same double as 2.8 m.
+struct LengthUnit {
+  double factor = 1, divisor = 1;
+  double metres(double x) const { return x * factor / divisor; }
+  Vec3 metres(const Vec3& x) const { return x * factor / divisor; }
+};
+
+/// m | cm | mm | ft | in.
+LengthUnit read_unit(const JsonNode& node);
+
+/// Where geometry goes: metres(linear x + translation).  It keeps orientation: the determinant of `linear` is positive.
+struct Placement {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Vec3 translation = Vec3::Zero();
+  LengthUnit unit;
+  Vec3 operator()(const Vec3& x) const { return unit.metres(Vec3(linear * x + translation)); }
+};
+
+/// The key "transform" of a geometry entry, where it has one: scaled, then turned about x, y and z of the scene, in this order,
+/// then moved.  Multiples of 90 degrees are exact.
+Placement read_placement(const JsonNode& entry, const LengthUnit& unit);
+
+}  // namespace interflect::scene::io

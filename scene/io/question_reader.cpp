@@ -1,0 +1,143 @@
+#include "scene/io/question_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/format.h"
+#include "scene/io/text_file.h"
+
+namespace interflect::scene::io {
+namespace {
+
+constexpr double most_points = 1e7;  // of one sensor: beyond, a slip in its spacing is likelier than a wish
+constexpr int most_pixels = 65536;   // along one side
+
+Vec3 read_direction(const JsonNode& node) {
+  const Vec3 direction = node.vec3();
+  const double length = direction.stableNorm();
+  if (!(length > 0)) node.fail("the zero vector is no direction");
+  return direction / length;
+}
+
+std::variant<double, Eigen::Array2i> read_step(const JsonNode& grid, const LengthUnit& unit, const Vec3& u, const Vec3& v) {
+  if (grid.has("spacing") == grid.has("counts")) grid.fail("one of 'spacing' and 'counts' is expected");
+  if (grid.has("counts")) {
+    const auto counts = grid.at("counts").items(2, 2);
+    const Eigen::Array2i n(counts[0].integer_in(1, 1000000), counts[1].integer_in(1, 1000000));
+    if (static_cast<double>(n[0]) * n[1] > most_points) grid.at("counts").fail(core::format("more than %.0e points", most_points));
+    return n;
+  }
+  const JsonNode node = grid.at("spacing");
+  if (node.is_string()) {
+    node.one_of({"en12464"});
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double spacing = unit.metres(node.positive());
+  if (!(u.norm() / spacing * (v.norm() / spacing) <= most_points)) node.fail(core::format("more than %.0e points", most_points));
+  return spacing;
+}
+
+SensorGrid read_grid(const JsonNode& sensor, const LengthUnit& unit) {
+  const JsonNode node = sensor.at("grid");
+  node.only({"origin", "u", "v", "spacing", "counts"});
+  SensorGrid grid{unit.metres(node.at("origin").vec3()), unit.metres(node.at("u").vec3()), unit.metres(node.at("v").vec3()), {}, 0};
+  const double u = grid.u.norm(), v = grid.v.norm();
+  if (!(u > 0)) node.at("u").fail("a side of a grid has a length");
+  if (!(v > 0)) node.at("v").fail("a side of a grid has a length");
+  if (!(grid.u.cross(grid.v).norm() > 1e-9 * u * v)) node.fail("u and v are parallel: the grid has no area");
+  grid.step = read_step(node, unit, grid.u, grid.v);
+  if (sensor.has("exclude_border")) {
+    const JsonNode border = sensor.at("exclude_border");
+    grid.exclude_border = unit.metres(border.number());
+    if (grid.exclude_border < 0) border.fail("a border is not negative");
+    if (2 * grid.exclude_border >= std::min(u, v)) border.fail("two borders leave nothing of the grid's shorter side");
+  }
+  return grid;
+}
+
+Sensor read_sensor(const JsonNode& node, const LengthUnit& unit) {
+  node.only({"name", "normal", "quantity", "exclude_border", "grid", "points"});
+  Sensor sensor;
+  sensor.name = node.at("name").string();
+  if (sensor.name.empty()) node.at("name").fail("a sensor needs a name");
+  sensor.normal = read_direction(node.at("normal"));
+  if (node.has("quantity")) node.at("quantity").one_of({"irradiance"});
+  if (node.has("grid") == node.has("points")) node.fail("one of 'grid' and 'points' is expected");
+  if (node.has("grid")) {
+    sensor.where = read_grid(node, unit);
+    return sensor;
+  }
+  if (node.has("exclude_border")) node.at("exclude_border").fail("only a grid has a border");
+  std::vector<Vec3> points = node.at("points").points(1);
+  for (Vec3& x : points) x = unit.metres(x);
+  sensor.where = std::move(points);
+  return sensor;
+}
+
+Camera read_camera(const JsonNode& node, const LengthUnit& unit, const Scene& scene) {
+  node.only({"name", "eye", "target", "up", "fov_y_deg", "size"});
+  Camera camera;
+  camera.name = node.has("name") ? node.at("name").string() : core::format("camera-%zu", scene.cameras.size() + 1);
+  camera.eye = unit.metres(node.at("eye").vec3());
+  camera.target = unit.metres(node.at("target").vec3());
+  if (camera.eye == camera.target) node.fail("the camera looks at itself: eye and target are the same point");
+  camera.up = node.has("up") ? read_direction(node.at("up")) : scene.up;
+  const Vec3 forward = (camera.target - camera.eye).stableNormalized();
+  if (!(forward.cross(camera.up).norm() > 1e-9))
+    (node.has("up") ? node.at("up") : node).fail("the camera looks along its 'up': give it another");
+  if (node.has("fov_y_deg")) {
+    camera.fov_y_deg = node.at("fov_y_deg").number_in(0, 180);
+    if (camera.fov_y_deg == 0 || camera.fov_y_deg == 180) node.at("fov_y_deg").fail("an angle between 0 and 180 is expected");
+  }
+  if (node.has("size")) {
+    const auto size = node.at("size").items(2, 2);
+    camera.width = size[0].integer_in(1, most_pixels);
+    camera.height = size[1].integer_in(1, most_pixels);
+  }
+  return camera;
+}
+
+template <class Named>
+void require_new_name(const JsonNode& node, const std::vector<Named>& others, const std::string& name) {
+  if (std::any_of(others.begin(), others.end(), [&](const Named& other) { return other.name == name; }))
+    node.fail("the name '" + shown_word(name) + "' is taken");
+}
+
+}  // namespace
+
+void read_sensors(const JsonNode& sensors, const LengthUnit& unit, Scene& scene) {
+  for (const JsonNode& node : sensors.items()) {
+    Sensor sensor = read_sensor(node, unit);
+    require_new_name(node.at("name"), scene.sensors, sensor.name);
+    scene.sensors.push_back(std::move(sensor));
+  }
+}
+
+void read_cameras(const JsonNode& cameras, const LengthUnit& unit, Scene& scene) {
+  for (const JsonNode& node : cameras.items()) {
+    Camera camera = read_camera(node, unit, scene);
+    require_new_name(node.has("name") ? node.at("name") : node, scene.cameras, camera.name);
+    scene.cameras.push_back(std::move(camera));
+  }
+}
+
+void read_expected(const JsonNode& expected, Scene& scene) {
+  std::vector<std::string> names;
+  for (const Sensor& sensor : scene.sensors) names.push_back(sensor.name);
+  constexpr std::array statistics = {Expected::Statistic::mean, Expected::Statistic::min, Expected::Statistic::max};
+  for (const JsonNode& node : expected.items()) {
+    node.only({"sensor", "statistic", "value", "tolerance", "source"});
+    Expected e;
+    e.sensor = node.at("sensor").string();
+    if (std::find(names.begin(), names.end(), e.sensor) == names.end())
+      node.at("sensor").fail(unknown_word("the sensor", e.sensor, names));
+    if (node.has("statistic")) e.statistic = statistics[node.at("statistic").one_of({"mean", "min", "max"})];
+    e.value = node.at("value").number();
+    e.tolerance = node.at("tolerance").positive();
+    if (node.has("source")) e.source = node.at("source").string();
+    scene.expected.push_back(std::move(e));
+  }
+}
+
+}  // namespace interflect::scene::io

@@ -1,0 +1,64 @@
+#include "solvers/system_check.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/format.h"
+
+namespace interflect::solvers {
+
+void require_solvable(const System& system) {
+  const ColumnMatrix& rho = system.R.reflectance();
+  const Index n = system.K.layout().unknowns();
+  if (system.e.rows() != n || rho.rows() != n || rho.cols() != system.e.cols())
+    throw core::PreconditionError("solve: K, R and e have different shapes");
+  for (Index a = 0; a < n; ++a)
+    for (Index c = 0; c < rho.cols(); ++c) {
+      const double r = rho(a, c);
+      if (!(r >= 0 && r < 1))
+        throw core::InputError(core::format("reflectance %g of unknown %td: 0 <= reflectance < 1 expected", r, a));
+      if (!std::isfinite(system.e(a, c)))
+        throw core::InputError(core::format("exitance %g of unknown %td: a finite number expected", system.e(a, c), a));
+    }
+}
+
+bool prepare(const System& system, SolverState& state) {
+  if (state.x.size() == 0) state.x = system.e;
+  if (state.x.rows() != system.e.rows() || state.x.cols() != system.e.cols())
+    throw core::PreconditionError("solve: the start has another shape than the exitance");
+  if (!state.x.allFinite()) throw core::InputError("start of the solve: finite numbers expected");
+  bool any = false;
+  for (Index c = 0; c < system.e.cols(); ++c) {
+    const bool dark = (system.e.col(c).array() == 0).all();
+    if (dark) state.x.col(c).setZero();
+    any = any || !dark;
+  }
+  return any;
+}
+
+double relative_size(ConstColumns residual, ConstColumns x) {
+  double largest = 0;
+  for (Index c = 0; c < x.cols(); ++c) {
+    const double r = residual.col(c).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), size = x.col(c).cwiseAbs().maxCoeff();
+    if (std::isnan(r)) return r;
+    if (r > 0) largest = std::max(largest, size > 0 ? r / size : 1.0);
+  }
+  return largest;
+}
+
+bool go_on(SolverReport& report, double residual, const StoppingRule& rule, const Run& run) {
+  if (!std::isfinite(residual)) throw core::InputError("solve: the operator holds numbers that are not finite");
+  ++report.iterations;
+  report.residual_history.push_back(residual);
+  if (residual <= rule.tolerance)
+    report.why = SolverReport::Stopped::converged;
+  else if (report.iterations >= rule.max_iterations)
+    report.why = SolverReport::Stopped::iteration_limit;
+  else if (run.stop.stop_requested())
+    report.why = SolverReport::Stopped::asked_to;
+  else
+    return true;
+  return false;
+}
+
+}  // namespace interflect::solvers

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "core/run.h"
+#include "core/vec.h"
+#include "solvers/layout.h"
+
+namespace interflect::solvers {
+
+using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Columns = Eigen::Ref<ColumnMatrix>;              ///< owned unknowns x (groups * channels)
+using ConstColumns = Eigen::Ref<const ColumnMatrix>;
+
+/// Rows of K, for solvers that need them: stored, or computed on demand.
+class RowAccess {
+ public:
+  virtual ~RowAccess() = default;
+  /// Rows first .. first + count of K into `out` (count x unknowns).  Reentrant: solvers share a block of rows among threads.
+  virtual void rows(Index first, Index count, Columns out) const = 0;
+  virtual Index evaluated() const = 0;  ///< rows handed out so far: the work in plots of error against work
+};
+
+/// h = G^-1 K b: what arrives when b leaves.  Geometry only: no reflectance and no pi left over.
+///
+///   K_ab = int int N_a(x) cos cos V / (pi r²) N_b(y) dy dx  [m²],   G_ab = int N_a N_b  [m²] (diagonal; areas for constants)
+class TransportOperator {
+ public:
+  virtual ~TransportOperator() = default;
+  virtual const Layout& layout() const = 0;
+  virtual bool symmetric() const = 0;                                  ///< K = K^T exactly: Galerkin yes, collocation no
+  virtual void apply(ConstColumns b, Columns out, Run& run) const = 0;  ///< out = K b, all columns in one pass over K
+  virtual std::span<const double> gram() const = 0;                    ///< diagonal of G [m²]
+  virtual std::span<const double> self() const = 0;                    ///< K_aa [m²]
+  virtual const RowAccess* rows() const { return nullptr; }
+};
+
+/// b = e + R h: diagonal in the unknowns and the channels here (constants); columns as in `Columns`.
+class Reflection {
+ public:
+  explicit Reflection(ColumnMatrix reflectance) : reflectance_(std::move(reflectance)) {}
+  const ColumnMatrix& reflectance() const { return reflectance_; }
+  void add_reflected(ConstColumns h, Columns b) const { b.array() += reflectance_.array() * h.array(); }
+  double max() const { return reflectance_.size() > 0 ? reflectance_.maxCoeff() : 0.0; }
+
+ private:
+  ColumnMatrix reflectance_;
+};
+
+}  // namespace interflect::solvers

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/apps/program.h"
+
+namespace interflect::test {
+namespace {
+
+/// Every bad input: exit status 2, one line on standard error that has `expected` in it, nothing on standard output, no files.
+void expect_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+  const Outcome outcome = interflect(arguments);
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err << "\nexpected in it: " << expected;
+  EXPECT_EQ(outcome.out, "");
+}
+
+void expect_scene_refused(const std::string& text, const std::string& expected) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", text), out = folder / "out";
+  expect_refused({"solve", scene, "-o", out}, expected);
+  EXPECT_FALSE(std::filesystem::exists(out)) << "a refused scene leaves nothing behind";
+}
+
+std::string scene_with(const std::string& materials, const std::string& geometry, const std::string& rest = "") {
+  return R"({ "format": "interflect/scene/1", "units": "m",
+  "materials": { )" + materials + R"( },
+  "geometry": [ )" + geometry + " ]" + rest + " }";
+}
+
+const std::string grey = R"("grey": { "type": "diffuse", "reflectance": 0.5, "exitance": 1 })";
+const std::string square = R"({ "polygon": [[0,0,0],[1,0,0],[1,1,0],[0,1,0]], "material": "grey", "name": "square" })";
+
+TEST(BadInput, a_missing_file) { expect_refused({"solve", "/nowhere/scene.json", "-o", "x"}, "/nowhere/scene.json"); }
+
+TEST(BadInput, no_such_command_or_option) {
+  expect_refused({"paint"}, "command line");
+  expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--element-sise", "1"}, "command line");
+  expect_refused({"solve", shipped_scene("cube")}, "--out");
+  expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--element-size", "-1"}, "--element-size");
+  expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--solver", "magic"}, "gauss-seidel");
+}
+
+TEST(BadInput, malformed_and_truncated_json) {
+  expect_scene_refused("{ \"format\": ", "scene.json:1");
+  expect_scene_refused("", "scene.json");
+  expect_scene_refused(std::string("\xFF\xFE{\0}\0", 6), "UTF-16");
+}
+
+TEST(BadInput, an_unknown_key_names_the_nearest_known_one) {
+  expect_scene_refused(scene_with(R"("grey": { "type": "diffuse", "reflektance": 0.5 })", square), "reflectance");
+}
+
+TEST(BadInput, an_unmapped_material) {
+  const TemporaryFolder folder;
+  folder.write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Wall\nf 1 2 3\n");
+  const std::string scene = folder.write("scene.json", scene_with(grey, R"({ "file": "room.obj", "materials": {} })"));
+  expect_refused({"info", scene}, "Wall");
+}
+
+TEST(BadInput, reflectance_of_one_or_more) {
+  expect_scene_refused(scene_with(R"("grey": { "type": "diffuse", "reflectance": 1 })", square), "/materials/grey/reflectance");
+}
+
+TEST(BadInput, coordinates_that_are_not_finite) {
+  expect_scene_refused(scene_with(grey, R"({ "polygon": [[0,0,0],[1,0,1e999],[1,1,0]], "material": "grey" })"), "scene.json:3");
+  expect_scene_refused(scene_with(grey, R"({ "polygon": [[0,0,0],[1,0,NaN],[1,1,0]], "material": "grey" })"), "scene.json:3");
+}
+
+TEST(BadInput, an_empty_mesh) {
+  const TemporaryFolder folder;
+  folder.write("empty.obj", "");
+  expect_refused({"check", folder.write("scene.json", scene_with(grey, R"({ "file": "empty.obj", "unmapped": "grey" })"))}, "empty.obj");
+}
+
+TEST(BadInput, polygons_without_area_or_out_of_plane) {
+  expect_scene_refused(scene_with(grey, R"({ "polygon": [[0,0,0],[1,0,0],[2,0,0]], "material": "grey" })"), "/geometry/0");
+  expect_scene_refused(scene_with(grey, R"({ "polygon": [[0,0,0],[1,0,0],[1,1,0.1],[0,1,0]], "material": "grey" })"), "planar");
+}
+
+TEST(BadInput, indices_out_of_range) {
+  const TemporaryFolder folder;
+  folder.write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  expect_refused({"info", folder.write("scene.json", scene_with(grey, R"({ "file": "room.obj", "unmapped": "grey" })"))}, "room.obj");
+}
+
+TEST(BadInput, a_camera_that_looks_at_itself) {
+  expect_scene_refused(scene_with(grey, square, R"(, "cameras": [ { "name": "c", "eye": [1,1,1], "target": [1,1,1], "fov_y_deg": 50, "size": [8,8] } ])"),
+                       "/cameras/0");
+}
+
+TEST(BadInput, an_unknown_camera_names_those_known) {
+  const TemporaryFolder folder;
+  expect_refused({"trace", shipped_scene("cornell_box"), "--camera", "roof", "-o", folder / "x.exr"}, "front");
+}
+
+TEST(BadInput, a_picture_format_that_is_not_known) {
+  const TemporaryFolder folder;
+  expect_refused({"trace", shipped_scene("cornell_box"), "-o", folder / "x.jpg"}, ".exr");
+}
+
+TEST(BadInput, a_folder_that_cannot_be_written) {
+  expect_refused({"solve", shipped_scene("cube"), "-o", "/proc/interflect"}, "/proc/interflect");
+  const TemporaryFolder folder;
+  expect_refused({"solve", shipped_scene("cube"), "-o", folder.write("file", "") + "/out"}, "file");
+}
+
+TEST(BadInput, more_memory_than_allowed) {
+  const TemporaryFolder folder;
+  expect_refused({"solve", shipped_scene("office"), "-o", folder / "out", "--element-size", "0.01"}, "--element-size");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace interflect::test

@@ -1,0 +1,133 @@
+#include "fem/radiosity_method.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measure/surface_measurements.h"
+#include "tests/fem/rooms.h"
+
+namespace interflect::fem {
+namespace {
+
+using test::Room;
+using test::solve;
+
+std::vector<Estimate> answers(const scene::Scene& scene, const RadiositySolution& solution, const std::vector<measure::Measurement>& asked,
+                              unsigned threads = 2) {
+  const auto rays = raycast::make_ray_caster("brute", scene);
+  core::LocalRun run(1, threads);
+  return RadiosityMethod(solution, *rays).answer(scene, asked, run.get());
+}
+
+/// truths.md 2.4: unit squares one metre apart, reflectances .3 and .7, the lower one emits 1.
+scene::Scene plates() {
+  Room room;
+  room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .3, 1);
+  room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, .7);
+  return room.finish();
+}
+struct Exact {
+  double x, y, B1, B2;
+};
+const std::vector<Exact> at_points = {{0, 0, 1.010337339662, .169085413687}, {.25, .25, 1.008919660688, .146754402664},
+                                      {.5, 0, 1.007707844849, .127350747221}, {.5, .5, 1.005875595836, .097804812116}};
+
+// Corners too: the iterated value has order two everywhere, where the element's own has one.
+TEST(RadiosityMethod, gives_the_irradiance_at_points_within_its_bound) {
+  const auto scene = plates();
+  double worst[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    const auto s = solve(scene, {.element_size = k == 0 ? .25 : .125, .tolerance = 1e-5});
+    std::vector<measure::Measurement> asked;
+    for (const Exact& e : at_points) {
+      asked.push_back(measure::PointIrradiance{{.5 + e.x, .5 + e.y, 0}, Vec3::UnitZ(), scene::SurfaceId{0}});
+      asked.push_back(measure::PointIrradiance{{.5 + e.x, .5 + e.y, 1}, -Vec3::UnitZ(), scene::SurfaceId{1}});
+    }
+    const auto found = answers(scene, s, asked);
+    for (std::size_t p = 0; p < at_points.size(); ++p) {
+      const double exact[2] = {(at_points[p].B1 - 1) / .3, at_points[p].B2 / .7};
+      for (std::size_t side = 0; side < 2; ++side) {
+        const Estimate& e = found[2 * p + side];
+        const double error = std::abs(e.value[0] - exact[side]);
+        EXPECT_LE(error, e.error_bound[0]) << p << " " << side;
+        EXPECT_LE(e.standard_error[0], 1e-4 * exact[side]) << "nothing is sampled: no more than quadrature";
+        EXPECT_LT(e.error_bound[0], 0.1 * exact[side]);
+        worst[k] = std::max(worst[k], error);
+      }
+    }
+  }
+  EXPECT_GT(std::log2(worst[0] / worst[1]), 1.6);
+}
+
+TEST(RadiosityMethod, of_an_element_is_its_galerkin_value_and_of_a_surface_their_mean) {
+  const auto scene = plates();
+  const auto s = solve(scene, {.element_size = .25});
+  std::vector<measure::Measurement> asked;
+  for (const auto& patch : s.mesh.patches()) asked.push_back(measure::PatchIrradiance{patch});
+  asked.push_back(measure::Flux{measure::patches_of(scene, scene::SurfaceId{1}, scene::Side::front)});
+  asked.push_back(measure::Flux{{measure::patches_of(scene, scene::SurfaceId{1}, scene::Side::front)[0]}});
+  const auto found = answers(scene, s, asked);
+  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+    EXPECT_EQ(found[i].value, s.irradiance[i]);
+    EXPECT_EQ(found[i].error_bound, s.irradiance_error[i]);
+    EXPECT_EQ(found[i].claim, Claim::estimated);
+  }
+  const double mean = test::mean_over(s, s.irradiance, {1});
+  const Estimate &whole = found[s.irradiance.size()], &half = found.back();
+  EXPECT_NEAR(whole.value[0], mean, 1e-12);
+  EXPECT_NEAR(half.value[0], mean / 2, 1e-12) << "half of the square by its diagonal: symmetric";
+  EXPECT_GT(half.error_bound[0], whole.error_bound[0] / 2) << "cut elements are known less well";
+}
+
+// Half an element, and a patch across several: exact where irradiance is the same everywhere.
+TEST(RadiosityMethod, of_patches_that_are_no_elements_is_the_mean_of_what_tiles_them) {
+  const auto scene = plates();
+  const auto s = solve(scene, {.element_size = .25});
+  const Vec3 ring[] = {{.1, .1, 1}, {.1, .7, 1}, {.6, .7, 1}, {.6, .1, 1}};
+  const Vec3 off_the_surface[] = {{5, 5, 1}, {5, 6, 1}, {6, 6, 1}};
+  const auto found = answers(scene, s, {measure::PatchIrradiance{scene::make_patch({1}, scene::Side::front, ring)},
+                                        measure::PatchIrradiance{scene::make_patch({1}, scene::Side::front, off_the_surface)}});
+  EXPECT_NEAR(found[0].value[0], .205, .01);  // between the middle's B2/.7 = .2416 and the mean .2016, nearer the middle
+  EXPECT_EQ(found[1].claim, Claim::none);
+  EXPECT_TRUE(std::isinf(found[1].error_bound[0]));
+}
+
+// In a furnace every pixel sees 1/pi; past the edge of the plates, nothing.
+TEST(RadiosityMethod, of_pixels_is_radiosity_over_pi) {
+  Room room;
+  room.box({0, 0, 0}, {1, 1, 1}, 1, true, .5, .5);
+  room.patches.clear();
+  scene::Scene furnace = room.finish();
+  furnace.cameras.push_back({"inside", {.5, .5, .5}, {1, .6, .4}, Vec3::UnitZ(), 60, 8, 8});
+  const auto s = solve(furnace, {.element_size = .5, .tolerance = 1e-5});
+  std::vector<measure::Measurement> asked;
+  for (int k = 0; k < 8; ++k) asked.push_back(measure::PixelRadiance{{0}, k, 7 - k});
+  for (const Estimate& e : answers(furnace, s, asked)) EXPECT_NEAR(e.value[0], inv_pi, 1e-5);
+
+  scene::Scene open = plates();
+  open.cameras.push_back({"away", {.5, .5, 3}, {.5, .5, 9}, Vec3::UnitX(), 60, 8, 8});
+  const auto nothing = answers(open, solve(open, {.element_size = .5}), {measure::PixelRadiance{{0}, 3, 3}});
+  EXPECT_EQ(nothing[0].value, Spectrum::zero());
+}
+
+TEST(RadiosityMethod, answers_the_same_bits_for_any_number_of_threads) {
+  Room room;
+  room.box({0, 0, 0}, {1, 1, 1}, 1, true, .5, .5);
+  room.box({.25, .25, .25}, {.25, .25, .25}, 1, false, .5);
+  const auto scene = room.finish();
+  const auto s = solve(scene, {.element_size = .25});
+  std::vector<measure::Measurement> asked;
+  for (int k = 0; k < 40; ++k) asked.push_back(measure::PointIrradiance{{.02 * k + .1, .5, 0}, Vec3::UnitZ(), scene::SurfaceId{4}});
+  const auto one = answers(scene, s, asked, 1);
+  for (unsigned threads : {2u, 3u, 8u}) {
+    const auto many = answers(scene, s, asked, threads);
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      EXPECT_EQ(many[k].value, one[k].value);
+      EXPECT_EQ(many[k].standard_error, one[k].standard_error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace interflect::fem

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <vector>
+
+#include "core/run.h"
+#include "fem/form_factor/method.h"
+#include "fem/radiosity.h"
+#include "raycast/ray_caster.h"
+#include "scene/builder.h"
+
+/// Small scenes and elements for the tests of fem.
+namespace interflect::fem::test {
+
+inline scene::Material diffuse(double reflectance, double exitance = 0.0) {
+  return {"", Spectrum(reflectance), Spectrum(exitance), scene::Sides::front};
+}
+
+/// n x n elements of a parallelogram: corner, then its sides; the front is along u x v.
+inline void add_grid(std::vector<scene::SurfacePatch>& out, scene::SurfaceId surface, const Vec3& corner, const Vec3& u, const Vec3& v,
+                     int n) {
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b) {
+      const auto at = [&](int i, int j) -> Vec3 { return corner + u * (double(i) / n) + v * (double(j) / n); };
+      const Vec3 ring[] = {at(a, b), at(a + 1, b), at(a + 1, b + 1), at(a, b + 1)};
+      out.push_back(scene::make_patch(surface, scene::Side::front, ring));
+    }
+}
+
+inline geometry::PlanarPolygon parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v) {
+  return {{corner, corner + u, corner + u + v, corner + v}, {}};
+}
+
+/// A scene and its elements, put together parallelogram by parallelogram.
+class Room {
+ public:
+  explicit Room(std::vector<std::string> channels = {"y"}) : builder_(std::move(channels), scene::Quantity::radiometric) {}
+
+  scene::SurfaceId wall(const Vec3& corner, const Vec3& u, const Vec3& v, int n, double reflectance = 0.0, double exitance = 0.0) {
+    const auto material = builder_.add_material(diffuse(reflectance, exitance));
+    const auto id = builder_.add_polygon("wall", parallelogram(corner, u, v), material);
+    add_grid(patches, id, corner, u, v, n);
+    return id;
+  }
+  /// Both sides black to light, no elements: what only blocks.
+  void screen(const Vec3& corner, const Vec3& u, const Vec3& v) {
+    builder_.add_polygon("screen", parallelogram(corner, u, v), builder_.add_material(diffuse(0.0)));
+  }
+  /// The six walls of a box, n x n elements each, facing inwards or outwards.
+  void box(const Vec3& low, const Vec3& size, int n, bool inwards = true, double reflectance = 0.0, double exitance = 0.0) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int high = 0; high < 2; ++high) {
+        Vec3 u = Vec3::Zero(), v = Vec3::Zero(), corner = low;
+        u[(axis + 1) % 3] = size[(axis + 1) % 3];
+        v[(axis + 2) % 3] = size[(axis + 2) % 3];
+        if (high == 1) corner[axis] += size[axis];
+        if ((high == 1) == inwards) std::swap(u, v);
+        wall(corner, u, v, n, reflectance, exitance);
+      }
+  }
+  scene::Scene finish() { return builder_.finish(); }
+
+  std::vector<scene::SurfacePatch> patches;
+
+ private:
+  scene::SceneBuilder builder_;
+};
+
+/// Entries as they come.
+class MatrixSink final : public ExchangeSink {
+ public:
+  explicit MatrixSink(std::size_t n) : K(Eigen::MatrixXd::Zero(Index(n), Index(n))), error(K) {}
+  void add(Index a, Index b, double K_ab, double error_ab) override {
+    K(a, b) += K_ab;
+    error(a, b) += error_ab;
+    if (a != b) K(b, a) += K_ab, error(b, a) += error_ab;
+  }
+  Eigen::MatrixXd K, error;
+};
+
+/// All pairs by "gauss-lambert".
+struct Assembled {
+  Eigen::MatrixXd K, error;
+  PairCounts pairs;
+};
+inline Assembled form_factors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, double tolerance, int rays = 16,
+                              std::uint64_t seed = 1) {
+  const auto caster = raycast::make_ray_caster("brute", scene);
+  const auto method = make_form_factor_method("gauss-lambert", {scene, patches, *caster, seed, tolerance, rays});
+  MatrixSink sink(patches.size());
+  core::LocalRun run(seed, 1);
+  const ElementBlock all{patches, 0, static_cast<Index>(patches.size())};
+  const PairCounts pairs = method->exchange(all, all, sink, run.get());
+  return {sink.K, sink.error, pairs};
+}
+
+struct SolveOptions {
+  double element_size = 0.25, tolerance = 1e-4;
+  int rays = 16;
+  bool closure = false;
+  unsigned threads = 2;
+  std::uint64_t seed = 1;
+  std::string intersector = "brute";
+};
+inline RadiositySolution solve(const scene::Scene& scene, const SolveOptions& options) {
+  RadiositySettings settings;
+  settings.element_size = options.element_size;
+  settings.quadrature_tolerance = options.tolerance;
+  settings.visibility_rays = options.rays;
+  settings.restore_closure = options.closure;
+  settings.intersector = options.intersector;
+  core::LocalRun run(options.seed, options.threads);
+  return solve_radiosity(scene, settings, run.get());
+}
+
+/// Area mean over a surface's elements.
+inline double mean_over(const RadiositySolution& s, std::span<const Spectrum> values, scene::SurfaceId surface, int channel = 0) {
+  double sum = 0, area = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (s.mesh.patches()[i].surface == surface) {
+      sum += s.mesh.patches()[i].area * values[i][channel];
+      area += s.mesh.patches()[i].area;
+    }
+  return sum / area;
+}
+
+}  // namespace interflect::fem::test

@@ -1,0 +1,101 @@
+#include "montecarlo/render.h"
+
+#include <thread>
+
+#include "tests/montecarlo/statistics.h"
+#include "tests/raycast/shapes.h"
+
+namespace interflect::montecarlo {
+namespace {
+
+using scene::SceneBuilder;
+
+/// A cube whose floor emits (rho 1/2), seen from inside.
+scene::Scene lit_cube(double rho, double everywhere, double floor, int width, int height) {
+  SceneBuilder builder({"r", "g"});
+  scene::Material wall, lit;
+  for (int c = 0; c < 2; ++c) wall.reflectance[c] = lit.reflectance[c] = rho, wall.exitance[c] = (c + 1) * everywhere, lit.exitance[c] = (c + 1) * floor;
+  builder.add_box("cube", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(wall), SceneBuilder::Facing::inward);
+  builder.scene().surfaces[test::surface_named(builder.scene(), "cube/z-").value].material = builder.add_material(lit);
+  builder.scene().cameras.push_back({"eye", Vec3(0.5, 0.1, 0.5), Vec3(0.5, 1, 0.4), Vec3::UnitZ(), 80, width, height});
+  return builder.finish();
+}
+
+// In a furnace every pixel is 1 / pi in the first channel and 2 / pi in the second.
+TEST(Render, shows_a_furnace_as_one_even_radiance) {
+  const scene::Scene scene = lit_cube(0.5, 0.5, 0.5, 24, 16);
+  core::LocalRun run;
+  const Rendering found = render(scene, {0}, 256, run);
+  EXPECT_EQ(found.samples, 256u);
+  EXPECT_EQ(found.radiance.width, 24);
+  EXPECT_EQ(found.radiance.height, 16);
+  EXPECT_EQ(found.radiance.channels, scene.channels);
+  const double limit = test::critical_z(test::alpha, 2 * 24 * 16 + 1);
+  double sum = 0;
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 24; ++x)
+      for (int c = 0; c < 2; ++c) {
+        const double z = (found.radiance.at(x, y, c) - (c + 1) * inv_pi) / found.standard_error.at(x, y, c);
+        EXPECT_LT(std::abs(z), limit) << x << ' ' << y << ' ' << c;
+        if (c == 0) sum += z;
+      }
+  // The signed mean of z: a loss of 1 % everywhere would pass every single pixel.
+  EXPECT_LT(std::abs(sum / std::sqrt(24.0 * 16)), limit);
+}
+
+// The picture and the measurement are the same number by two roads: pixel (x, y) of the image is what PixelRadiance answers.
+TEST(Render, agrees_with_the_measurement_of_single_pixels) {
+  const scene::Scene scene = lit_cube(0.5, 0, 1, 12, 10);
+  core::LocalRun run;
+  const Rendering found = render(scene, {0}, 4096, run);
+  std::vector<measure::Measurement> asked;
+  for (int y = 0; y < 10; y += 3)
+    for (int x = 0; x < 12; x += 3) asked.push_back(measure::PixelRadiance{{0}, x, y});
+  const auto pixels = PathTracer({.samples = 4096}).answer(scene, asked, run);
+  const double limit = test::critical_z(test::alpha, 2 * pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto& [camera, x, y] = std::get<measure::PixelRadiance>(asked[i]);
+    for (int c = 0; c < 2; ++c) {
+      const double se = std::hypot(pixels[i].standard_error[c], found.standard_error.at(x, y, c));
+      EXPECT_LE(std::abs(pixels[i].value[c] - found.radiance.at(x, y, c)), limit * se + 1e-6) << x << ' ' << y;
+    }
+  }
+  // The floor's emission is seen in the lower part of the picture alone.
+  EXPECT_GT(found.radiance.at(6, 9, 0), 0.9 * inv_pi);
+  EXPECT_LT(found.radiance.at(6, 2, 0), 0.5 * inv_pi);
+}
+
+TEST(Render, gives_the_same_bits_for_any_number_of_threads) {
+  const scene::Scene scene = lit_cube(0.5, 0, 1, 40, 30);
+  core::LocalRun one(5, 1);
+  const Rendering expected = render(scene, {0}, 11, one);
+  EXPECT_EQ(expected.samples, 11u);
+  for (unsigned threads : {2u, 3u, 8u}) {
+    core::LocalRun run(5, threads);
+    const Rendering found = render(scene, {0}, 11, run);
+    EXPECT_EQ(found.radiance.data, expected.radiance.data);
+    EXPECT_EQ(found.standard_error.data, expected.standard_error.data);
+  }
+}
+
+TEST(Render, gives_the_whole_picture_when_it_is_stopped_and_throws_when_there_is_none) {
+  const scene::Scene scene = lit_cube(0.5, 0, 1, 20, 20);
+  std::stop_source source;
+  core::LocalRun run;
+  run.get().stop = source.get_token();
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    source.request_stop();
+  });
+  const Rendering found = render(scene, {0}, 1u << 30, run);
+  stopper.join();
+  EXPECT_GE(found.samples, 4u);
+  EXPECT_LT(found.samples, 1u << 30);
+  for (float value : found.radiance.data) EXPECT_GT(value, 0);
+  EXPECT_THROW(render(scene, {0}, 4, run), core::Interrupted);
+  EXPECT_THROW(render(scene, {1}, 4, run), core::InputError);
+  EXPECT_THROW(render(scene, {0}, 0, run), core::InputError);
+}
+
+}  // namespace
+}  // namespace interflect::montecarlo

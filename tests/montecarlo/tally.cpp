@@ -1,0 +1,42 @@
+#include "montecarlo/tally.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace interflect::montecarlo {
+namespace {
+
+TEST(Tally, samples_that_are_not_finite_count_as_zero_are_remembered_and_void_the_bound) {
+  Tally a, b;
+  a.add(Spectrum(2), 0);
+  a.add(Spectrum(4), 1);
+  b.add(Spectrum(std::numeric_limits<double>::quiet_NaN()), 2);
+  b.add(Spectrum(std::numeric_limits<double>::infinity()), 3);
+  EXPECT_EQ(a.estimate(Spectrum(1)).claim, Claim::guaranteed);
+  a.merge(b);
+  EXPECT_EQ(a.not_finite, 2u);
+  EXPECT_EQ(a.first_not_finite, 2u);
+  const Estimate found = a.estimate(Spectrum(1));
+  EXPECT_EQ(found.samples, 4u);
+  EXPECT_EQ(found.value[0], 1.5);
+  EXPECT_EQ(found.claim, Claim::none);
+  EXPECT_TRUE(std::isinf(found.error_bound[0]));
+}
+
+TEST(Tally, a_channel_that_never_scored_has_the_standard_error_of_the_rule_of_three) {
+  Tally tally;
+  Spectrum sample, largest;
+  largest[0] = largest[1] = 5;  // channel 2: nothing emits
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    sample[0] = static_cast<double>(k % 2);
+    tally.add(sample, k);
+  }
+  const Estimate found = tally.estimate(largest);
+  EXPECT_NEAR(found.standard_error[0], std::sqrt(0.25 / 99), 1e-15);
+  EXPECT_DOUBLE_EQ(found.standard_error[1], 3 * 5 / 100.0);
+  EXPECT_EQ(found.standard_error[2], 0);
+}
+
+}  // namespace
+}  // namespace interflect::montecarlo

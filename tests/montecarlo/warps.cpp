@@ -1,0 +1,156 @@
+#include "montecarlo/warp.h"
+
+#include <gtest/gtest.h>
+
+#include "montecarlo/emitters.h"
+#include "tests/raycast/shapes.h"
+
+namespace interflect::montecarlo {
+namespace {
+
+constexpr double almost_one = 1 - 0x1p-53;
+
+/// Upper quantile of chi-squared by Wilson and Hilferty's cube, z = 4.9 (one-sided 5e-7); to about 1 % for 15 cells or more.
+double chi2_limit(int degrees) {
+  const double a = 2.0 / (9 * degrees);
+  return degrees * std::pow(1 - a + 4.9 * std::sqrt(a), 3);
+}
+
+double chi2(const std::vector<int>& counts, double expected) {
+  double sum = 0;
+  for (int count : counts) sum += (count - expected) * (count - expected) / expected;
+  return sum;
+}
+
+TEST(Warps, frames_are_orthonormal_and_right_handed_about_every_normal) {
+  core::RandomNumbers numbers(1, 0, 0);
+  std::vector<Vec3> normals{Vec3::UnitZ(), -Vec3::UnitZ(), Vec3::UnitX(), Vec3(1e-9, 0, -1).normalized(), Vec3(0, 1e-300, -1)};
+  for (int i = 0; i < 1000; ++i) normals.push_back(test::cosine_about(Vec3::UnitX(), numbers.next(), numbers.next()));
+  for (const Vec3& n : normals) {
+    const Frame frame = frame_around(n);
+    EXPECT_NEAR(frame.s.norm(), 1, 1e-14);
+    EXPECT_NEAR(frame.t.norm(), 1, 1e-14);
+    EXPECT_LT((frame.s.cross(frame.t) - n).norm(), 1e-14);
+  }
+}
+
+// With pdf cos / pi, cos² and the azimuth are uniform and independent.
+TEST(Warps, directions_are_cosine_distributed) {
+  constexpr int n = 1'000'000, side = 16;
+  std::vector<int> cells(side * side);
+  for (int i = 0; i < n; ++i) {
+    core::RandomNumbers numbers(2, 0, static_cast<std::uint64_t>(i));
+    const double u = numbers.next(), v = numbers.next();
+    const Vec3 d = cosine_hemisphere(u, v);
+    const double azimuth = std::atan2(d.y(), d.x()) / (2 * pi) + 0.5;
+    const int a = std::min(side - 1, static_cast<int>(d.z() * d.z() * side)), b = std::min(side - 1, static_cast<int>(azimuth * side));
+    ++cells[static_cast<std::size_t>(a * side + b)];
+  }
+  EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
+}
+
+TEST(Warps, directions_have_length_one_and_never_lie_in_the_plane) {
+  for (double u : {0.0, 0.25, almost_one})
+    for (double v : {0.0, 0.5, almost_one}) {
+      const Vec3 d = cosine_hemisphere(u, v);
+      EXPECT_NEAR(d.norm(), 1, 1e-15);
+      EXPECT_GT(d.z(), 0);
+      EXPECT_DOUBLE_EQ(cosine_hemisphere_pdf_solid_angle(d.z()), d.z() / pi);
+    }
+}
+
+// The area fraction that a line parallel to a side cuts off a triangle is the square of its distance from the corner, so both
+// s² (s: distance from corner a) and the place along the cut are uniform.
+TEST(Warps, points_of_a_triangle_are_uniform_by_area) {
+  constexpr int n = 400'000, side = 10;
+  const Vec3 a(1, 2, 3), b(4, 2, 1), c(-1, 5, 2);
+  std::vector<int> cells(side * side);
+  for (int i = 0; i < n; ++i) {
+    core::RandomNumbers numbers(3, 0, static_cast<std::uint64_t>(i));
+    const double u = numbers.next(), v = numbers.next();
+    const Vec3 p = triangle_point(a, b, c, u, v);
+    const Vec3 normal = (b - a).cross(c - a);
+    const double in_b = (p - a).cross(c - a).dot(normal) / normal.squaredNorm(), in_c = (b - a).cross(p - a).dot(normal) / normal.squaredNorm();
+    const double s = in_b + in_c;
+    ASSERT_TRUE(in_b >= -1e-14 && in_c >= -1e-14 && s <= 1 + 1e-14);
+    const int row = std::min(side - 1, static_cast<int>(s * s * side)), column = std::clamp(static_cast<int>(in_c / s * side), 0, side - 1);
+    ++cells[static_cast<std::size_t>(row * side + column)];
+  }
+  EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
+}
+
+// A trapezium between y = 0 (length 3) and y = 1 (length 1): mean height 5/12, and each half of it gets its share of points.
+TEST(Warps, points_of_a_quad_are_uniform_by_area) {
+  const std::array<Vec3, 4> ring{Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
+  const auto patch = scene::make_patch({}, scene::Side::front, ring);
+  constexpr int n = 400'000, side = 8;
+  std::vector<int> cells(side * side);
+  for (int i = 0; i < n; ++i) {
+    core::RandomNumbers numbers(4, 0, static_cast<std::uint64_t>(i));
+    const double u = numbers.next(), v = numbers.next();
+    const Vec3 p = patch_point(patch, u, v);
+    const double width = 3 - 2 * p.y(), below = (3 * p.y() - p.y() * p.y()) / 2;  // area fraction below y
+    ASSERT_TRUE(p.y() >= 0 && p.y() <= 1 && p.x() >= 0 && p.x() <= width + 1e-14);
+    const int row = std::min(side - 1, static_cast<int>(below * side)), column = std::min(side - 1, static_cast<int>(p.x() / width * side));
+    ++cells[static_cast<std::size_t>(row * side + column)];
+  }
+  EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
+  for (double u : {0.0, almost_one})
+    for (double v : {0.0, almost_one}) EXPECT_TRUE(patch_point(patch, u, v).allFinite());
+}
+
+TEST(AliasTable, picks_in_proportion_to_the_weights) {
+  const std::vector<double> weights{1, 1e-3, 5, 0.5, 3, 0.5, 1e6 * 1e-6, 2};
+  const AliasTable table(weights);
+  double sum = 0;
+  for (double w : weights) sum += w;
+  EXPECT_NEAR(table.total(), sum, 1e-15 * sum);
+  constexpr int n = 1'000'000;
+  std::vector<int> counts(weights.size());
+  for (int i = 0; i < n; ++i) ++counts[table.pick(core::RandomNumbers(5, 0, static_cast<std::uint64_t>(i)).next())];
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double p = weights[i] / sum;  // binomial: 4.9 standard deviations, two-sided 1e-6 each
+    EXPECT_NEAR(counts[i], n * p, 4.9 * std::sqrt(n * p * (1 - p))) << i;
+  }
+  EXPECT_LT(table.pick(almost_one), weights.size());
+}
+
+// The pdf that `sample` tells, the pdf that `pdf_area` finds for the same place, and the frequency are one thing.
+TEST(Emitters, are_picked_by_power_and_their_pdf_is_known_at_hits) {
+  scene::SceneBuilder builder({"a", "b"});
+  scene::Material bright, dim;
+  bright.exitance[0] = 2, bright.exitance[1] = 10;
+  dim.exitance[0] = 1;
+  const auto big = builder.add_material(dim), small = builder.add_material(bright), none = builder.add_material({});
+  builder.add_box("big", {Vec3(0, 0, 0), Vec3(2, 2, 2)}, big);
+  builder.add_box("dark", {Vec3(0, 0, 4), Vec3(2, 2, 5)}, none);
+  builder.add_box("small", {Vec3(5, 0, 0), Vec3(5.1, 0.1, 0.1)}, small);
+  const scene::Scene scene = builder.finish();
+  const Emitters emitters(scene);
+  const double power = 24 * 1 + 0.06 * 10;  // area times the largest channel
+  double integral = 0;
+  for (std::uint32_t f = 0; f < scene.facets.size(); ++f) {
+    const double e = scene.material(scene.facets[f].surface).exitance.max();
+    EXPECT_NEAR(emitters.pdf_area(f), e / power, 1e-14);
+    integral += emitters.pdf_area(f) * scene.facets[f].area;
+  }
+  EXPECT_NEAR(integral, 1, 1e-14);
+  constexpr int n = 200'000;
+  int on_small = 0;
+  for (int i = 0; i < n; ++i) {
+    core::RandomNumbers numbers(6, 0, static_cast<std::uint64_t>(i));
+    const double pick = numbers.next(), u = numbers.next(), v = numbers.next();
+    const EmitterSample sample = emitters.sample(pick, u, v);
+    const bool is_small = sample.position.x() > 4;
+    on_small += is_small;
+    EXPECT_NEAR(sample.pdf_area, (is_small ? 10 : 1) / power, 1e-14);
+    EXPECT_EQ(sample.exitance[1], is_small ? 10 : 0);
+  }
+  const double p = 0.6 / power;
+  EXPECT_NEAR(on_small, n * p, 4.9 * std::sqrt(n * p * (1 - p)));
+  EXPECT_EQ(emitters.max_exitance()[0], 2);
+  EXPECT_EQ(emitters.max_exitance()[1], 10);
+}
+
+}  // namespace
+}  // namespace interflect::montecarlo

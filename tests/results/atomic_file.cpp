@@ -1,0 +1,100 @@
+#include "results/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include "core/error.h"
+#include "scratch.h"
+
+using namespace interflect;
+using namespace interflect::results;
+
+namespace {
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const core::InputError& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+/// No file may grow beyond so many bytes: a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : signal_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, signal_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*signal_)(int);
+};
+
+}  // namespace
+
+TEST(AtomicFile, what_is_written_is_read_and_nothing_else_is_left) {
+  const Scratch scratch;
+  const std::string bytes("a\0b\r\n\xff", 6);
+  write_atomically(scratch / "file", bytes);
+  EXPECT_EQ(contents(scratch / "file"), bytes);
+  write_atomically(scratch / "file", "new");
+  EXPECT_EQ(contents(scratch / "file"), "new");
+  EXPECT_EQ(scratch.files(), 1u);
+}
+
+TEST(AtomicFile, a_full_disk_leaves_the_old_file_and_nothing_else) {
+  const Scratch scratch;
+  write_atomically(scratch / "file", "old");
+  std::string message;
+  {
+    const FullDisk full(1000);
+    message = message_of([&] { write_atomically(scratch / "file", std::string(100000, 'x')); });
+  }
+  EXPECT_EQ(message, (scratch / "file").string() + ": cannot be written: File too large");
+  EXPECT_EQ(contents(scratch / "file"), "old");
+  EXPECT_EQ(scratch.files(), 1u);
+}
+
+TEST(AtomicFile, a_place_that_cannot_be_written_is_named_in_one_line) {
+  const Scratch scratch;
+  EXPECT_EQ(message_of([&] { write_atomically(scratch / "no/such/file", "x"); }),
+            (scratch / "no/such/file").string() + ": cannot be written: No such file or directory");
+  EXPECT_NE(message_of([&] { write_atomically(scratch.folder(), "x"); }), "");
+  EXPECT_EQ(scratch.files(), 0u);
+}
+
+TEST(AtomicFile, files_get_the_permissions_that_other_programs_give) {
+  const Scratch scratch;
+  write_atomically(scratch / "ours", "x");
+  std::ofstream(scratch / "theirs") << "x";
+  EXPECT_EQ(std::filesystem::status(scratch / "ours").permissions(), std::filesystem::status(scratch / "theirs").permissions());
+}
+
+TEST(AtomicFile, an_output_directory_is_made_with_its_parents_and_left_empty) {
+  const Scratch scratch;
+  prepare_output_directory(scratch / "a/b/c");
+  prepare_output_directory(scratch / "a/b/c");
+  EXPECT_TRUE(std::filesystem::is_empty(scratch / "a/b/c"));
+}
+
+TEST(AtomicFile, an_output_directory_that_cannot_be_used_is_refused_before_any_work) {
+  const Scratch scratch;
+  std::ofstream(scratch / "file") << "x";
+  EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "file"); }),
+            (scratch / "file").string() + ": cannot be written: Not a directory");
+  EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "file/out"); }),
+            (scratch / "file/out").string() + ": cannot be written: Not a directory");
+  EXPECT_EQ(message_of([&] { prepare_output_directory("/proc/interflect"); }).rfind("/proc/interflect: cannot be written: ", 0), 0u);
+  const FullDisk full(0);
+  EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "full"); }),
+            (scratch / "full").string() + ": cannot be written: File too large");
+}

@@ -1,0 +1,101 @@
+#include "results/vtu.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <stack>
+
+#include "core/error.h"
+#include "scratch.h"
+#include "tiny_mesh.h"
+
+using namespace interflect;
+using namespace interflect::results;
+
+namespace {
+
+/// Every opened element is closed, in order; returns the number of elements, or -1.
+int well_formed(const std::string& xml) {
+  std::stack<std::string> open;
+  int count = 0;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at)) {
+    const std::size_t end = xml.find('>', at);
+    if (end == std::string::npos) return -1;
+    const std::string tag = xml.substr(at + 1, end - at - 1);
+    at = end;
+    if (tag[0] == '?') continue;
+    if (tag[0] == '/') {
+      if (open.empty() || open.top() != tag.substr(1)) return -1;
+      open.pop();
+      continue;
+    }
+    ++count;
+    if (tag.back() != '/') open.push(tag.substr(0, tag.find(' ')));
+  }
+  return open.empty() ? count : -1;
+}
+
+/// The bytes of an array, its length checked.
+std::string decoded(const std::string& xml, const std::string& name) {
+  std::size_t at = xml.find("Name=\"" + name + "\"");
+  if (at == std::string::npos) return "none";
+  at = xml.find(">\n", at) + 2;
+  const std::string text = xml.substr(at, xml.find('\n', at) - at);
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (char c : text) {
+    if (c == '=') break;
+    group = group << 6 | static_cast<std::uint32_t>(digits.find(c));
+    if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
+  }
+  std::uint64_t length = 0;
+  std::memcpy(&length, bytes.data(), sizeof length);
+  EXPECT_EQ(bytes.size(), sizeof length + length) << name;
+  return bytes.substr(sizeof length);
+}
+
+template <class T>
+std::vector<T> values(const std::string& xml, const std::string& name) {
+  const std::string bytes = decoded(xml, name);
+  std::vector<T> out(bytes.size() / sizeof(T));
+  std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+  return out;
+}
+
+}  // namespace
+
+TEST(Vtu, base64_has_the_values_of_the_standard) {
+  // RFC 4648, section 10.
+  const std::pair<const char*, const char*> known[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="},
+                                                       {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : known) EXPECT_EQ(base64(bytes), text);
+  EXPECT_EQ(base64("\xff\xff\xfe"), "///+");
+}
+
+TEST(Vtu, is_well_formed_and_its_arrays_have_the_right_sizes) {
+  const mesh::ElementMesh mesh = tiny::mesh();
+  std::vector<CellField> fields = id_fields(mesh);
+  Spectrum s;
+  for (int c = 0; c < 3; ++c) s[c] = c + 0.5;
+  fields.push_back(spectrum_field("irradiance <lx> & \"more\"", std::vector<Spectrum>(3, s), {"r", "g", "b"}));
+  fields.push_back(scalar_field("error", {0.1, 0.2, 0.3}));
+  const std::string xml = vtu_text(mesh, fields);
+  EXPECT_EQ(well_formed(xml), 6 + 4 + 5);  // elements of the frame, of the grid, of the data
+  EXPECT_NE(xml.find("NumberOfPoints=\"9\" NumberOfCells=\"3\""), std::string::npos);  // six shared corners and three
+  EXPECT_EQ(values<double>(xml, "Points").size(), 27u);
+  EXPECT_EQ(values<std::int64_t>(xml, "offsets"), (std::vector<std::int64_t>{4, 8, 11}));
+  EXPECT_EQ(values<std::int64_t>(xml, "connectivity"), (std::vector<std::int64_t>{0, 1, 2, 3, 1, 4, 5, 2, 6, 7, 8}));
+  EXPECT_EQ(values<std::uint8_t>(xml, "types"), (std::vector<std::uint8_t>{9, 9, 5}));
+  EXPECT_EQ(values<double>(xml, "error"), (std::vector<double>{0.1, 0.2, 0.3}));
+  EXPECT_EQ(values<std::int64_t>(xml, "element"), (std::vector<std::int64_t>{0, 1, 2}));
+  EXPECT_EQ(values<std::int32_t>(xml, "surface"), (std::vector<std::int32_t>{0, 0, 1}));
+  EXPECT_EQ(values<std::int32_t>(xml, "side"), (std::vector<std::int32_t>{0, 0, 1}));
+  EXPECT_EQ(values<double>(xml, "irradiance &lt;lx&gt; &amp; &quot;more&quot;").size(), 9u);
+  EXPECT_NE(xml.find("ComponentName2=\"b\""), std::string::npos);
+}
+
+TEST(Vtu, a_field_that_does_not_fit_the_mesh_is_refused) {
+  EXPECT_THROW(vtu_text(tiny::mesh(), std::vector{scalar_field("error", {1, 2})}), core::PreconditionError);
+}

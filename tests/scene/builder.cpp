@@ -1,0 +1,93 @@
+#include "scene/builder.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace interflect::scene {
+namespace {
+
+using geometry::Box;
+using geometry::PlanarPolygon;
+
+Material grey(double reflectance) { return {"grey", Spectrum(reflectance), Spectrum(), Sides::front}; }
+
+TEST(Builder, a_box_closes_around_its_volume) {
+  for (const auto facing : {SceneBuilder::Facing::outward, SceneBuilder::Facing::inward}) {
+    SceneBuilder builder({"y"});
+    builder.add_box("box", Box(Vec3(1, 2, 3), Vec3(2, 4, 6)), builder.add_material(grey(0.5)), facing);
+    const Scene scene = builder.finish();
+    double volume = 0;  // the divergence theorem: sum of x . n A / 3
+    for (const Facet& f : scene.facets) volume += f.corner[0].dot(f.normal) * f.area / 3;
+    EXPECT_DOUBLE_EQ(volume, facing == SceneBuilder::Facing::outward ? 6 : -6);
+  }
+}
+
+TEST(Builder, facets_of_a_polygon_share_its_normal_to_the_last_bit) {
+  SceneBuilder builder({"y"});
+  const PlanarPolygon polygon{{{0, 0, 0}, {1, 1, 1}, {1.1, 1.2, 0.4}, {0.7, 0.4, -1}, {0.35, 0.2, -0.5}}, {}};
+  PlanarPolygon flat = polygon;  // into one plane
+  const geometry::Plane plane{Vec3(1, 2, 3).normalized(), 0};
+  for (Vec3& x : flat.outer) x -= plane.distance(x) * plane.normal;
+  builder.add_polygon("p", flat, builder.add_material(grey(0.5)));
+  const Scene scene = builder.finish();
+  for (const Facet& f : scene.facets) EXPECT_EQ(f.normal, scene.facets[0].normal);
+}
+
+TEST(Builder, names_become_unique) {
+  SceneBuilder builder({"y"});
+  const MaterialId m = builder.add_material(grey(0.5));
+  const PlanarPolygon p{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {}};
+  for (const char* name : {"a", "a", "a-2", "", ""}) builder.add_polygon(name, p, m);
+  const Scene scene = builder.finish();
+  std::vector<std::string> names;
+  for (const Surface& s : scene.surfaces) names.push_back(s.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "a-3", "a-2", "surface", "surface-2"}));
+}
+
+TEST(Builder, facets_without_area_are_refused_and_leave_nothing_behind) {
+  SceneBuilder builder({"y"});
+  const MaterialId m = builder.add_material(grey(0.5));
+  const std::vector<geometry::TriangleCorners> triangles{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)}};
+  EXPECT_THROW(builder.add_facets("f", triangles, m), geometry::Defect);
+  EXPECT_TRUE(builder.scene().facets.empty());
+}
+
+TEST(Builder, channels_are_as_many_as_the_build_holds) {
+  EXPECT_THROW(SceneBuilder({}), core::PreconditionError);
+  EXPECT_THROW(SceneBuilder(std::vector<std::string>(Spectrum::capacity + 1, "c")), core::PreconditionError);
+}
+
+TEST(Camera, pixels_span_the_angle_of_view) {
+  const Camera camera{"c", {0, -3, 0}, {0, 0, 0}, Vec3::UnitZ(), 90, 200, 100};
+  EXPECT_NEAR((camera.direction(100, 50) - Vec3(0, 1, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((camera.direction(100, 0) - Vec3(0, 1, 1).normalized()).norm(), 0, 1e-15);     // top
+  EXPECT_NEAR((camera.direction(200, 50) - Vec3(2, 1, 0).normalized()).norm(), 0, 1e-15);    // right is +x: seen along +y, up z
+  EXPECT_NEAR((camera.direction(0, 100) - Vec3(-2, 1, -1).normalized()).norm(), 0, 1e-15);
+}
+
+TEST(Patch, centroid_and_area_of_a_quad_are_those_of_its_halves) {
+  const std::vector<Vec3> ring{{0, 0, 1}, {4, 0, 1}, {2, 2, 1}, {0, 2, 1}};  // a trapezoid
+  const SurfacePatch patch = make_patch(SurfaceId{3}, Side::front, ring);
+  EXPECT_DOUBLE_EQ(patch.area, 6);
+  EXPECT_NEAR((patch.centroid() - Vec3(14.0 / 9, 8.0 / 9, 1)).norm(), 0, 1e-15);
+  EXPECT_EQ(patch.normal(), Vec3::UnitZ());
+}
+
+TEST(Scene, flux_is_that_of_fronts_and_numbers_are_weighed) {
+  SceneBuilder builder({"r", "g", "b"});
+  Material lamp = grey(0.5);
+  lamp.sides = Sides::both;
+  const MaterialId m = builder.add_material(lamp);
+  builder.add_polygon("p", {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {}}, m);
+  Spectrum flux;
+  flux[0] = 8, flux[1] = 4, flux[2] = 2;
+  builder.share_flux(m, flux);
+  const Scene scene = builder.finish();
+  EXPECT_EQ(scene.emitted_flux(), flux);
+  EXPECT_DOUBLE_EQ(scene.weigh(flux), 8 * 0.2126 + 4 * 0.7152 + 2 * 0.0722);
+  EXPECT_EQ(scene.rgb(flux), (std::array<double, 3>{8, 4, 2}));
+}
+
+}  // namespace
+}  // namespace interflect::scene

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "scene/io/mesh_import.h"
+#include "scene/io/mesh_reader.h"
+
+namespace interflect::scene {
+namespace {
+
+class Corpus : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* folder = std::getenv("INTERFLECT_CORPUS");
+    if (!folder || !*folder) GTEST_SKIP() << "INTERFLECT_CORPUS is not set: tests on other people's meshes are skipped";
+    root_ = folder;
+  }
+
+  std::vector<std::filesystem::path> files(const std::string& folder) const {
+    std::vector<std::filesystem::path> out;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root_ / folder))
+      if (entry.is_regular_file()) out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  static Scene load(const std::filesystem::path& file) {
+    io::MeshFile mesh = io::read_mesh(file, file.string());
+    SceneBuilder builder({"y"});
+    const MaterialId grey = builder.add_material({"grey", Spectrum(0.5), Spectrum(), Sides::both});
+    io::place_vertices(mesh, {}, 0);
+    io::import_mesh(builder, mesh, std::vector<MaterialId>(mesh.materials.size(), grey), {}, file.string());
+    return builder.finish();
+  }
+
+  std::filesystem::path root_;
+};
+
+TEST_F(Corpus, every_file_is_read_or_refused_in_one_line_that_names_it) {
+  std::size_t read = 0, refused = 0;
+  for (const char* folder : {"messy", "cornell-mcguire", "holodeck-mcguire"})
+    for (const auto& file : files(folder)) {
+      SCOPED_TRACE(file.string());
+      try {
+        const Scene scene = load(file);
+        ++read;
+        EXPECT_FALSE(scene.facets.empty());
+        EXPECT_TRUE(scene.box().min().allFinite() && scene.box().max().allFinite());
+        for (const Facet& facet : scene.facets) {
+          ASSERT_GE(facet.area, 0);
+          ASSERT_NEAR(facet.normal.norm(), 1, 1e-12);
+        }
+      } catch (const core::InputError& error) {
+        ++refused;
+        const std::string what = error.what();
+        EXPECT_TRUE(what.starts_with(file.string())) << what;
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+        EXPECT_LT(what.size(), file.string().size() + 400) << what;
+      }
+    }
+  EXPECT_GT(read, 60u);
+  EXPECT_GT(refused, 40u);
+}
+
+TEST_F(Corpus, mcguires_boxes_have_all_their_vertices) {
+  const std::vector<std::pair<std::string, std::size_t>> counts{
+      {"CornellBox-Empty-RG.obj", 24}, {"CornellBox-Original.obj", 72}, {"CornellBox-Mirror.obj", 72}};
+  for (const auto& [name, vertices] : counts) {
+    const auto file = root_ / "cornell-mcguire" / name;
+    if (!std::filesystem::exists(file)) continue;
+    const io::MeshFile mesh = io::read_mesh(file, name);
+    EXPECT_EQ(mesh.vertices.size(), vertices) << name;
+    // Quads with corners of their own, named by negative indices from the latest vertex on.
+    EXPECT_EQ(mesh.indices.size(), vertices) << name;
+    EXPECT_EQ(mesh.faces.size(), vertices / 4) << name;
+  }
+}
+
+TEST_F(Corpus, duplicated_faces_of_the_original_box_are_counted) {
+  const Scene scene = load(root_ / "cornell-mcguire/CornellBox-Original.obj");
+  ASSERT_FALSE(scene.repairs.empty());
+  EXPECT_EQ(scene.repairs[0].message, "2 duplicate faces dropped");
+}
+
+TEST_F(Corpus, what_each_trap_is_for_is_what_is_said) {
+  const std::vector<std::pair<std::string, std::string>> traps{
+      {"assimp-testmodels/OBJ/box_UTF16BE.obj", ": the file is in UTF-16: UTF-8 is expected"},
+      {"assimp-testmodels/OBJ/point_cloud.obj", ": the file has points or lines, and no faces"},
+      {"assimp-testmodels/invalid/malformed.obj", ":23: a face refers to vertex 12, and 8 are defined so far"},
+      {"assimp-testmodels/glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", ": vertex 1 is not finite"},
+      {"assimp-testmodels/glTF2/RecursiveNodes/RecursiveNodes.gltf", ": nodes hold each other in a ring"},
+      {"assimp-testmodels/glTF2/MissingBin/BoxTextured.gltf", ": the buffer 'BoxTextured0.bin' cannot be read"}};
+  for (const auto& [name, said] : traps) {
+    const std::string file = (root_ / "messy" / name).string();
+    try {
+      load(file);
+      ADD_FAILURE() << file << " was read";
+    } catch (const core::InputError& error) {
+      EXPECT_EQ(error.what(), file + said);
+    }
+  }
+}
+
+TEST_F(Corpus, a_hole_that_a_double_edge_joins_stays_open) {
+  const Scene scene = load(root_ / "messy/assimp-testmodels/OBJ/concave_polygon.obj");
+  EXPECT_TRUE(scene.repairs.empty());
+  EXPECT_EQ(scene.facets.size(), 64u);
+}
+
+}  // namespace
+}  // namespace interflect::scene

@@ -1,0 +1,157 @@
+#include "scene/inspection.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "scene/builder.h"
+
+namespace interflect::scene {
+namespace {
+
+using geometry::Box;
+using geometry::PlanarPolygon;
+using geometry::Ring;
+using Kind = Inspection::Finding::Kind;
+using Facing = SceneBuilder::Facing;
+
+struct Site {
+  SceneBuilder builder{{"y"}};
+  MaterialId wall = builder.add_material({"wall", Spectrum(0.5), Spectrum(), Sides::front});
+  MaterialId sheet = builder.add_material({"sheet", Spectrum(0.5), Spectrum(), Sides::both});
+};
+
+std::vector<Inspection::Finding> of_kind(const Inspection& inspection, Kind kind) {
+  std::vector<Inspection::Finding> out;
+  for (const auto& f : inspection.findings)
+    if (f.kind == kind) out.push_back(f);
+  return out;
+}
+
+Ring square(double x, double y, double z, double side) {
+  return {{x, y, z}, {x + side, y, z}, {x + side, y + side, z}, {x, y + side, z}};
+}
+
+TEST(Inspect, a_closed_room_with_a_body_in_it_is_sound_at_any_scale) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    Site site;
+    site.builder.add_box("room", Box(Vec3(0, 0, 0), scale * Vec3(5, 4, 3)), site.wall, Facing::inward);
+    site.builder.add_box("body", Box(scale * Vec3(1, 1, 1), scale * Vec3(2, 2, 2)), site.wall);
+    const Inspection inspection = inspect(site.builder.finish());
+    EXPECT_TRUE(inspection.findings.empty());
+    EXPECT_TRUE(inspection.closed());
+    EXPECT_EQ(inspection.open_edge_length, 0);
+  }
+}
+
+TEST(Inspect, corners_on_the_edge_of_a_neighbour_are_no_gaps) {
+  Site site;  // a box whose top is three squares of different size
+  const Box box(Vec3(0, 0, 0), Vec3(3, 2, 1));
+  for (const Ring& ring : std::vector<Ring>{{{0, 0, 0}, {0, 2, 0}, {3, 2, 0}, {3, 0, 0}},
+                                            {{0, 0, 0}, {3, 0, 0}, {3, 0, 1}, {0, 0, 1}},
+                                            {{0, 2, 0}, {0, 2, 1}, {3, 2, 1}, {3, 2, 0}},
+                                            {{0, 0, 0}, {0, 0, 1}, {0, 2, 1}, {0, 2, 0}},
+                                            {{3, 0, 0}, {3, 2, 0}, {3, 2, 1}, {3, 0, 1}},
+                                            square(0, 0, 1, 2),
+                                            square(2, 0, 1, 1),
+                                            square(2, 1, 1, 1)})
+    site.builder.add_polygon("p", {ring, {}}, site.wall);
+  EXPECT_TRUE(inspect(site.builder.finish()).findings.empty());
+}
+
+TEST(Inspect, a_missing_wall_is_found_by_its_rim) {
+  Site site;
+  site.builder.add_box("room", Box(Vec3(0, 0, 0), Vec3(5, 4, 3)), site.wall, Facing::inward);
+  Scene scene = site.builder.finish();
+  scene.facets.resize(scene.facets.size() - 2);  // the ceiling
+  scene.surfaces.pop_back();
+  const Inspection inspection = inspect(scene);
+  EXPECT_FALSE(inspection.closed());
+  EXPECT_NEAR(inspection.open_edge_length, 18, 1e-12);
+  ASSERT_EQ(inspection.findings.size(), 4u);
+  EXPECT_DOUBLE_EQ(inspection.findings[0].size, 5);  // the largest first
+  EXPECT_EQ(inspection.findings[0].where.z(), 3);
+}
+
+TEST(Inspect, a_gap_of_a_millimetre_is_found_and_one_of_a_nanometre_is_none) {
+  for (const double gap : {1e-3, 1e-9}) {
+    Site site;
+    site.builder.add_polygon("a", {square(0, 0, 0, 1), {}}, site.wall);
+    site.builder.add_polygon("b", {{{1 + gap, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1 + gap, 1, 0}}, {}}, site.wall);
+    const double open = inspect(site.builder.finish()).open_edge_length;
+    EXPECT_NEAR(open, gap > 1e-6 ? 8 : 6, 1e-2);
+  }
+}
+
+TEST(Inspect, a_flipped_wall_disagrees_with_its_neighbours) {
+  Site site;
+  site.builder.add_box("room", Box(Vec3(0, 0, 0), Vec3(5, 4, 3)), site.wall, Facing::inward);
+  Scene scene = site.builder.finish();
+  for (Facet& f : scene.facets)
+    if (f.surface == SurfaceId{0}) {  // room/x-, 4 m x 3 m
+      std::swap(f.corner[1], f.corner[2]);
+      f.normal = -f.normal;
+    }
+  const auto found = of_kind(inspect(scene), Kind::inconsistent_normals);
+  ASSERT_EQ(found.size(), 4u);
+  double length = 0;
+  for (const auto& f : found) {
+    EXPECT_EQ(f.surface, "room/x-");
+    length += f.size;
+  }
+  EXPECT_DOUBLE_EQ(length, 14);
+}
+
+TEST(Inspect, two_sided_sheets_have_no_wrong_side) {
+  Site site;
+  Ring other = square(1, 0, 0, 1);
+  std::reverse(other.begin(), other.end());
+  site.builder.add_polygon("a", {square(0, 0, 0, 1), {}}, site.sheet);
+  site.builder.add_polygon("b", {other, {}}, site.sheet);
+  EXPECT_TRUE(of_kind(inspect(site.builder.finish()), Kind::inconsistent_normals).empty());
+}
+
+TEST(Inspect, a_lamp_that_lies_on_the_ceiling_overlaps_it_and_one_cut_out_does_not) {
+  for (const bool cut : {false, true}) {
+    Site site;
+    PlanarPolygon ceiling{square(0, 0, 3, 4), {}};
+    if (cut) ceiling.holes.push_back(square(1, 1, 3, 1));
+    site.builder.add_polygon("ceiling", ceiling, site.wall);
+    site.builder.add_polygon("lamp", {square(1, 1, 3, 1), {}}, site.wall);
+    const auto found = of_kind(inspect(site.builder.finish()), Kind::coplanar_overlap);
+    ASSERT_EQ(found.size(), cut ? 0u : 1u);
+    if (cut) continue;
+    EXPECT_EQ(found[0].surface, "ceiling");
+    EXPECT_EQ(found[0].other, "lamp");
+    EXPECT_NEAR(found[0].size, 1, 1e-12);
+  }
+}
+
+TEST(Inspect, a_wall_that_is_there_twice_is_a_duplicate_whichever_way_it_faces) {
+  Site site;
+  Ring twin{{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  site.builder.add_polygon("a", {square(0, 0, 0, 1), {}}, site.wall);
+  site.builder.add_polygon("b", {twin, {}}, site.wall);
+  const auto found = of_kind(inspect(site.builder.finish()), Kind::duplicate_faces);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].size, 1, 1e-12);
+}
+
+TEST(Inspect, an_empty_scene_has_nothing_to_say) { EXPECT_TRUE(inspect(Scene{}).findings.empty()); }
+
+TEST(Inspect, twelve_thousand_facets_take_no_time) {
+  Site site;
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j)
+      for (int k = 0; k < 10; ++k)
+        site.builder.add_box("b", Box(Vec3(i, j, k), Vec3(i + 0.5, j + 0.5, k + 0.5)), site.wall);
+  const Scene scene = site.builder.finish();
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(inspect(scene).findings.empty());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_LT(seconds, 30);  // 0.2 s on a quiet machine: the bound is against quadratic time, under sanitizers too
+  RecordProperty("seconds", std::to_string(seconds));
+}
+
+}  // namespace
+}  // namespace interflect::scene

@@ -1,0 +1,143 @@
+#include "validation/certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "synthetic.h"
+
+using namespace interflect;
+using namespace interflect::validation;
+
+namespace {
+
+Certificate certificate_of(const std::vector<Judged>& judged, const scene::Scene& scene = synthetic::scene(),
+                           Settings settings = {}) {
+  return certify(scene, judged, {}, {}, settings);
+}
+
+bool mentions(const std::vector<std::string>& lines, const std::string& text) {
+  for (const std::string& line : lines)
+    if (line.find(text) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST(Certificate, good_data_pass_with_a_verdict_in_one_sentence) {
+  const Certificate c = certificate_of(synthetic::judged({.spread = 0.01, .bound = 0.03}, 1));
+  EXPECT_TRUE(c.passed) << c.verdict;
+  EXPECT_TRUE(c.reasons.empty());
+  EXPECT_EQ(c.verdict.rfind("FEM within 1.", 0), 0u) << c.verdict;
+  EXPECT_NE(c.verdict.find(" % (L2 of H) of the path-traced reference, whose own 95 % error is 1."), std::string::npos) << c.verdict;
+  EXPECT_EQ(c.elements, 500u);
+}
+
+TEST(Certificate, good_data_pass_at_every_seed) {
+  // Chance fails a set at alpha = 0.01 only through the mean (a 501st part of it) and through a share below 0.99 (more than 5
+  // of 500 beyond 3 sigma plus a bound of 3 sigma: negligible).
+  for (std::uint64_t seed = 0; seed < 200; ++seed)
+    EXPECT_TRUE(certificate_of(synthetic::judged({.spread = 0.01, .bound = 0.03}, seed)).passed) << seed;
+}
+
+TEST(Certificate, planted_faults_fail) {
+  // A bias of 5 sigma beyond the bounds, standard errors a third of what they are, a loss of 0.2 %, no bound at all.
+  EXPECT_FALSE(certificate_of(synthetic::judged({.bias = 0.05}, 1)).passed);
+  EXPECT_FALSE(certificate_of(synthetic::judged({.claimed_noise = 0.003}, 1)).passed);
+  const Certificate loss = certificate_of(synthetic::judged({.count = 10000, .bias = -0.002}, 1));
+  EXPECT_FALSE(loss.passed);
+  EXPECT_TRUE(mentions(loss.reasons, "too dark everywhere"));
+  const Certificate unknown = certificate_of(synthetic::judged({.bound = std::numeric_limits<double>::infinity()}, 1));
+  EXPECT_FALSE(unknown.passed);
+  EXPECT_TRUE(mentions(unknown.reasons, "lack a finite error bound"));
+  EXPECT_EQ(unknown.verdict.rfind("Not validated: ", 0), 0u);
+}
+
+TEST(Certificate, one_wrong_element_breaks_a_guarantee_and_is_remarked_upon_where_bounds_are_estimates) {
+  std::vector<Judged> judged = synthetic::judged({.bound = 0.02, .claim = Claim::guaranteed}, 1);
+  judged[42].fem.value *= 1.3;
+  const Certificate broken = certificate_of(judged);
+  EXPECT_FALSE(broken.passed);
+  EXPECT_TRUE(mentions(broken.reasons, "guaranteed error bound is broken at element 42"));
+  for (Judged& j : judged) j.fem.claim = Claim::estimated;
+  const Certificate estimated = certificate_of(judged);
+  EXPECT_TRUE(estimated.passed);
+  EXPECT_TRUE(mentions(estimated.remarks, "element 42"));
+}
+
+TEST(Certificate, a_reference_that_is_too_noisy_judges_nothing) {
+  const Certificate c = certificate_of(synthetic::judged({.noise = 0.1, .claimed_noise = 0.1}, 1));
+  EXPECT_FALSE(c.passed);
+  EXPECT_TRUE(mentions(c.reasons, "too noisy to judge by"));
+}
+
+TEST(Certificate, overestimated_standard_errors_are_remarked_upon) {
+  EXPECT_TRUE(mentions(certificate_of(synthetic::judged({.noise = 0.005}, 1)).remarks, "overestimated"));
+  EXPECT_FALSE(mentions(certificate_of(synthetic::judged({}, 1)).remarks, "overestimated"));
+}
+
+TEST(Certificate, a_fault_in_one_channel_fails_though_the_weighted_value_agrees) {
+  scene::Scene scene = synthetic::scene({"r", "g", "b"});
+  scene.weights[0] = 0.2;
+  scene.weights[1] = 0.79;
+  scene.weights[2] = 0.01;
+  std::vector<Judged> judged = synthetic::judged({.bound = 0.01}, 1);
+  for (Judged& j : judged) j.fem.value[2] *= 1.1;
+  const Certificate c = certificate_of(judged, scene);
+  ASSERT_EQ(c.judgements.size(), 4u);
+  EXPECT_GE(c.judgements[0].comparison.share, 0.99);
+  EXPECT_LT(c.judgements[3].comparison.share, 0.5);
+  EXPECT_FALSE(c.passed);
+  EXPECT_EQ(c.comparisons, 4u * 501u);
+}
+
+TEST(Certificate, the_worst_surface_is_named_and_emitters_are_left_out_where_asked) {
+  std::vector<Judged> judged = synthetic::judged({.noise = 0, .claimed_noise = 0, .bound = 1}, 1);
+  for (Judged& j : judged) j.kind = Judged::Kind::surface;
+  judged[50].fem.value *= 1.1;  // emits: a multiple of ten
+  const Certificate c = certificate_of(judged);
+  EXPECT_EQ(c.worst_surface, "element 50");
+  EXPECT_NEAR(c.worst_surface_difference, 0.1, 1e-12);
+  EXPECT_GT(c.judgements[0].surfaces.l2.value, 1e-3);
+  EXPECT_LT(c.judgements[0].surfaces_dark.l2.value, 1e-12);
+  EXPECT_EQ(c.judgements[0].surfaces_dark.measurements, 450u);
+}
+
+TEST(Certificate, expectations_of_the_scene_are_checked_against_both_methods) {
+  scene::Scene scene = synthetic::scene();
+  using Statistic = scene::Expected::Statistic;
+  scene.expected = {{"desk", Statistic::mean, 200, 0.01, "a book"}, {"desk", Statistic::min, 100, 0.01, ""},
+                    {"desk", Statistic::max, 300, 0.01, ""},        {"desk", Statistic::mean, 210, 0.01, ""},
+                    {"chair", Statistic::mean, 1, 0.01, ""}};
+  std::vector<Judged> judged = synthetic::judged({}, 1);
+  for (int i = 0; i < 3; ++i) {
+    Judged point;
+    point.kind = Judged::Kind::sensor;
+    point.group = "desk";
+    point.name = "desk[" + std::to_string(i) + "]";
+    point.fem = {Spectrum(100 + 100 * i), Spectrum::zero(), Spectrum(1), Claim::estimated, 0};
+    point.mc = unbiased_estimate(Spectrum(100.5 + 100 * i), Spectrum(0.5), 100);
+    judged.push_back(point);
+  }
+  const Certificate c = certificate_of(judged, scene);
+  ASSERT_EQ(c.expected.size(), 5u);
+  EXPECT_DOUBLE_EQ(c.expected[0].fem, 200);
+  EXPECT_DOUBLE_EQ(c.expected[0].mc, 200.5);
+  EXPECT_NEAR(c.expected[0].mc_standard_error, 0.5 / std::sqrt(3.0), 1e-12);
+  EXPECT_TRUE(c.expected[0].passed() && c.expected[1].passed() && c.expected[2].passed());
+  EXPECT_FALSE(c.expected[3].passed());  // 5 % off
+  EXPECT_FALSE(c.expected[4].passed());  // no such points
+  EXPECT_TRUE(mentions(c.reasons, "sensor desk: mean is 200 by FEM"));
+}
+
+TEST(Certificate, nothing_judged_is_not_a_pass) { EXPECT_FALSE(certificate_of({}).passed); }
+
+TEST(Certificate, a_sampled_balance_adds_what_surfaces_absorb_with_its_error) {
+  const double areas[] = {2, 3};
+  const Spectrum reflectances[] = {Spectrum(0.5), Spectrum(0)};
+  const Estimate irradiance[] = {unbiased_estimate(Spectrum(10), Spectrum(0.3), 9), unbiased_estimate(Spectrum(20), Spectrum(0.1), 9)};
+  const EnergyBalance b = sampled_energy(Spectrum(100), areas, reflectances, irradiance);
+  EXPECT_DOUBLE_EQ(b.absorbed[0], 70);
+  EXPECT_DOUBLE_EQ(b.lost[0], 30);
+  EXPECT_NEAR(b.standard_error[0], std::hypot(0.3, 0.3), 1e-15);
+}

@@ -1,0 +1,128 @@
+#include "visual/display.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "core/error.h"
+#include "core/format.h"
+#include "visual/x_server.h"
+
+using namespace interflect;
+using namespace interflect::visual;
+
+namespace {
+
+/// Running, and not a zombie that somebody has yet to collect.
+bool alive(pid_t process) {
+  std::ifstream stat(core::format("/proc/%d/stat", process));
+  std::string line;
+  if (!std::getline(stat, line)) return false;
+  const char state = line[line.rfind(')') + 2];
+  return state != 'Z' && state != 'X';
+}
+
+bool gone_within(pid_t process, std::chrono::seconds patience) {
+  for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;
+       std::this_thread::sleep_for(std::chrono::milliseconds(20)))
+    if (!alive(process)) return true;
+  return !alive(process);
+}
+
+std::string lock_of(int number) { return core::format("/tmp/.X%d-lock", number); }
+std::string socket_of(int number) { return core::format("/tmp/.X11-unix/X%d", number); }
+
+/// An environment variable for the length of a scope; null: unset.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* now = std::getenv(name)) before_ = now, was_set_ = true;
+    value != nullptr ? ::setenv(name, value, 1) : ::unsetenv(name);
+  }
+  ~Environment() { was_set_ ? ::setenv(name_, before_.c_str(), 1) : ::unsetenv(name_); }
+
+ private:
+  const char* name_;
+  std::string before_;
+  bool was_set_ = false;
+};
+
+}  // namespace
+
+TEST(Display, a_server_of_ours_ends_without_a_zombie_or_a_lock_file) {
+  pid_t process = 0;
+  std::string lock, socket;
+  {
+    const XServer server;
+    process = server.process();
+    lock = lock_of(server.number());
+    socket = socket_of(server.number());
+    EXPECT_TRUE(alive(process));
+    EXPECT_TRUE(std::filesystem::exists(socket));
+  }
+  EXPECT_EQ(::kill(process, 0), -1);  // collected, not a zombie
+  EXPECT_FALSE(std::filesystem::exists(lock));
+  EXPECT_FALSE(std::filesystem::exists(socket));
+}
+
+TEST(Display, two_servers_get_along) {
+  const XServer one, two;
+  EXPECT_NE(one.number(), two.number());
+}
+
+TEST(Display, a_server_ends_with_a_program_that_is_killed) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const pid_t program = ::fork();
+  if (program == 0) {
+    const XServer server;
+    const int told[] = {static_cast<int>(server.process()), server.number()};
+    if (::write(ends[1], told, sizeof told) != sizeof told) ::_exit(1);
+    ::kill(::getpid(), SIGKILL);
+  }
+  int told[2] = {0, 0};
+  ASSERT_EQ(::read(ends[0], told, sizeof told), static_cast<ssize_t>(sizeof told));
+  ::waitpid(program, nullptr, 0);
+  EXPECT_TRUE(gone_within(told[0], std::chrono::seconds(20)));
+  EXPECT_FALSE(std::filesystem::exists(lock_of(told[1])));
+  EXPECT_FALSE(std::filesystem::exists(socket_of(told[1])));
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST(Display, an_interrupt_from_the_keyboard_reaches_the_program_alone) {
+  const XServer server;
+  EXPECT_NE(::getpgid(server.process()), ::getpgid(0));
+}
+
+TEST(Display, a_display_that_does_not_answer_is_replaced_and_put_back) {
+  const Environment stale("DISPLAY", ":4711");
+  {
+    const visual::Display display;
+    ASSERT_NE(display.own(), nullptr);
+    EXPECT_EQ(std::getenv("DISPLAY"), core::format(":%d", display.own()->number()));
+    const visual::Display second;  // the first one answers
+    EXPECT_EQ(second.own(), nullptr);
+  }
+  EXPECT_STREQ(std::getenv("DISPLAY"), ":4711");
+}
+
+TEST(Display, without_the_package_one_line_names_it) {
+  const Environment none("DISPLAY", nullptr), nowhere("PATH", "/nonexistent");
+  try {
+    const visual::Display display;
+    ADD_FAILURE();
+  } catch (const core::InputError& problem) {
+    const std::string line = problem.what();
+    EXPECT_NE(line.find("apt-get install xvfb"), std::string::npos);
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(std::getenv("DISPLAY"), nullptr);
+}

@@ -1,0 +1,227 @@
+#include "visual/picture.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tiny.h"
+#include "visual/legend.h"
+#include "visual/raster.h"
+
+using namespace interflect;
+using namespace interflect::visual;
+
+namespace {
+
+class Picture : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { display_ = std::make_unique<visual::Display>(); }
+  static void TearDownTestSuite() { display_.reset(); }
+  static const visual::Display& display() { return *display_; }
+
+ private:
+  static std::unique_ptr<visual::Display> display_;
+};
+std::unique_ptr<visual::Display> Picture::display_;
+
+Colour pixel(const core::Image& image, int x, int y) {
+  Colour out;
+  for (int c = 0; c < 3; ++c) out[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * image.at(x, y, c)));
+  return out;
+}
+
+/// Where `picture` sits inside its frame.
+struct Place {
+  int left = 0, top = 0;
+};
+Place place_of(int width, int height, const std::string& caption) {
+  Place place;
+  framed(core::Image(width, height, {"R", "G", "B"}), caption, nullptr, &place.left, &place.top);
+  return place;
+}
+
+std::vector<double> ramp(Index n) {
+  std::vector<double> values;
+  for (Index i = 0; i < n; ++i) values.push_back(static_cast<double>(i));
+  return values;
+}
+
+/// What a ray through the middle of a pixel meets in z = 0: an element, or nothing.
+int element_at(const tiny::Floor& floor, const scene::Camera& camera, int x, int y, int n) {
+  const Vec3 d = camera.direction(x + 0.5, y + 0.5), eye = camera.eye - floor.offset;
+  const Vec3 p = eye - eye.z() / d.z() * d;
+  const int i = static_cast<int>(std::floor(p.x() * n / 2)), j = static_cast<int>(std::floor(p.y() * n / 2));
+  return i < 0 || j < 0 || i >= n || j >= n ? -1 : j * n + i;
+}
+
+/// The pixel and its neighbours see the same: its colour is not a mixture.
+bool inside(const tiny::Floor& floor, const scene::Camera& camera, int x, int y, int n) {
+  for (int dx : {-1, 1})
+    for (int dy : {-1, 1})
+      if (element_at(floor, camera, x + dx, y + dy, n) != element_at(floor, camera, x, y, n)) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_F(Picture, shows_each_element_where_the_cameras_rays_meet_it) {
+  constexpr int n = 4;
+  const tiny::Floor floor(n);
+  FalseColour options;
+  options.camera = floor.camera(3);
+  options.range = Range{0, 15};
+  const core::Image image = false_colour(display(), floor.scene, floor.mesh, ramp(floor.mesh.size()), options);
+  const Place at = place_of(120, 90, "");
+  int compared = 0;
+  for (int y = 1; y < 89; ++y)
+    for (int x = 1; x < 119; ++x) {
+      if (!inside(floor, *options.camera, x, y, n)) continue;
+      const int element = element_at(floor, *options.camera, x, y, n);
+      const Colour expected = element < 0 ? Colour{255, 255, 255} : colour_of(options.map, element / 15.0);
+      ASSERT_EQ(pixel(image, at.left + x, at.top + y), expected) << x << ' ' << y;
+      ++compared;
+    }
+  EXPECT_GT(compared, 7000);
+}
+
+TEST_F(Picture, is_the_same_a_million_metres_away) {
+  const tiny::Floor here(4), there(4, Vec3(1e6, -2e6, 5e5));
+  FalseColour options;
+  options.camera = here.camera(3);
+  const core::Image a = false_colour(display(), here.scene, here.mesh, ramp(16), options);
+  options.camera = there.camera(3);
+  const core::Image b = false_colour(display(), there.scene, there.mesh, ramp(16), options);
+  ASSERT_EQ(a.data.size(), b.data.size());
+  double off = 0;
+  for (std::size_t i = 0; i < a.data.size(); ++i) off += std::abs(a.data[i] - b.data[i]);
+  EXPECT_LT(off / static_cast<double>(a.data.size()), 1e-4);  // an edge may round to the next of nine samples
+}
+
+TEST_F(Picture, from_behind_a_side_without_elements_is_dark_and_from_outside_it_is_not_there) {
+  const tiny::Floor floor(2);
+  FalseColour options;
+  options.camera = floor.camera(-3);
+  const core::Image behind = false_colour(display(), floor.scene, floor.mesh, ramp(4), options);
+  const Place at = place_of(120, 90, "");
+  EXPECT_EQ(pixel(behind, at.left + 60, at.top + 45), (Colour{70, 70, 70}));
+
+  tiny::Floor turned(2);
+  turned.scene.up = -Vec3::UnitZ();  // the view from outside now looks at the floor's back
+  options.camera.reset();
+  options.width = 120, options.height = 90;
+  const core::Image outside = false_colour(display(), turned.scene, turned.mesh, ramp(4), options);
+  EXPECT_EQ(pixel(outside, at.left + 60, at.top + 45), (Colour{255, 255, 255}));
+  const core::Image upright = false_colour(display(), floor.scene, floor.mesh, ramp(4), options);
+  EXPECT_NE(pixel(upright, at.left + 60, at.top + 45), (Colour{255, 255, 255}));
+}
+
+TEST_F(Picture, from_outside_everything_is_in_it_and_fills_it) {
+  const tiny::Floor floor(2);
+  Raster raster;
+  raster.fronts = flat(floor.mesh, std::vector<Colour>(4, Colour{0, 0, 0}));
+  for (const auto& [width, height] : {std::pair{160, 60}, {60, 160}}) {
+    FalseColour options;
+    options.width = width, options.height = height;
+    const core::Image image = false_colour(display(), floor.scene, floor.mesh, std::vector<double>(4, 1.0), options);
+    const Place at = place_of(width, height, "");
+    int covered = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const bool floor_here = pixel(image, at.left + x, at.top + y) != Colour{255, 255, 255};
+        covered += floor_here;
+        if (x == 0 || y == 0 || x == width - 1 || y == height - 1) {
+          EXPECT_FALSE(floor_here);
+        }
+      }
+    EXPECT_GT(covered, width * height / 12);
+  }
+}
+
+TEST_F(Picture, true_colour_is_tone_mapped_radiance) {
+  const tiny::Floor floor(2);
+  TrueColour options;
+  options.camera = floor.camera(3);
+  options.white = 2;
+  options.smooth = false;
+  const std::vector<std::array<double, 3>> rgb{{1, 0.5, 0}, {1, 0.5, 0}, {1, 0.5, 0}, {4, 2, 1}};
+  const core::Image image = true_colour(display(), floor.scene, floor.mesh, rgb, options);
+  ASSERT_EQ(image.width, 120);  // without a caption: the camera's pixels and nothing else
+  const scene::Camera& camera = *options.camera;
+  for (int y = 1; y < 89; ++y)
+    for (int x = 1; x < 119; ++x) {
+      if (!inside(floor, camera, x, y, 2)) continue;
+      const int element = element_at(floor, camera, x, y, 2);
+      // sRGB of 0.5, 0.25, 0: 188, 137, 0; of 2 (clipped), 1, 0.5: 255, 255, 188.
+      const Colour expected = element < 0 ? Colour{0, 0, 0} : element == 3 ? Colour{255, 255, 188} : Colour{188, 137, 0};
+      ASSERT_EQ(pixel(image, x, y), expected) << x << ' ' << y;
+    }
+}
+
+TEST_F(Picture, the_legend_shows_the_map_from_low_to_high_and_nothing_is_cut_off) {
+  const core::Image plain(200, 300, {"R", "G", "B"});
+  const Legend legend{"irradiance [W/m\xc2\xb2]", ColourMap::plasma, {0, 500}, true, false};
+  Place at;
+  const core::Image image = framed(plain, "A caption", &legend, &at.left, &at.top);
+  EXPECT_GT(image.width, at.left + 200 + 40);
+  int column = -1, first = -1, last = -1;  // the bar: the first column right of the picture with the map's end colours
+  for (int x = at.left + 200; x < image.width && column < 0; ++x)
+    for (int y = 0; y < image.height; ++y)
+      if (pixel(image, x, y) == colour_of(ColourMap::plasma, 0.5)) column = x;
+  ASSERT_GE(column, 0);
+  for (int y = 0; y < image.height; ++y) {
+    const Colour c = pixel(image, column, y);
+    if (first < 0 && c[0] > 230 && c[1] > 230 && c[2] < 60) first = y;
+    if (c[2] > 125 && c[0] < 30 && c[1] < 20) last = y;
+  }
+  EXPECT_GT(first, at.top);
+  EXPECT_GT(last, first + 200);
+  int ink = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const bool dark = pixel(image, x, y)[1] < 120;
+      const bool in_picture = x >= at.left && x < at.left + 200 && y >= at.top && y < at.top + 300;
+      if (dark && !in_picture && x > column + 30) ++ink;
+      if (x < 4 || y < 4 || x >= image.width - 4 || y >= image.height - 4) {
+        EXPECT_FALSE(dark) << x << ' ' << y;
+      }
+    }
+  EXPECT_GT(ink, 100);
+}
+
+TEST_F(Picture, edges_darken_the_borders_of_elements_alone) {
+  const tiny::Floor floor(2);
+  FalseColour options;
+  options.camera = floor.camera(3);
+  const std::vector<double> same(4, 1.0);
+  const core::Image plain = false_colour(display(), floor.scene, floor.mesh, same, options);
+  options.edges = true;
+  const core::Image edged = false_colour(display(), floor.scene, floor.mesh, same, options);
+  int darker = 0, lighter = 0;
+  for (std::size_t i = 0; i < plain.data.size(); ++i) {
+    darker += edged.data[i] < plain.data[i] - 0.05F;
+    lighter += edged.data[i] > plain.data[i] + 0.01F;
+  }
+  EXPECT_GT(darker, 100);
+  EXPECT_LT(darker, 120 * 90);
+  EXPECT_EQ(lighter, 0);
+}
+
+TEST(PictureFile, is_written_without_a_display_in_the_environment) {
+  const char* before = std::getenv("DISPLAY");
+  const std::string kept = before != nullptr ? before : "";
+  ::unsetenv("DISPLAY");
+  const auto file = std::filesystem::temp_directory_path() / ("interflect-" + std::to_string(::getpid()) + ".png");
+  const tiny::Floor floor(2);
+  FalseColour options;
+  options.width = 64, options.height = 48;
+  write_false_colour(file, floor.scene, floor.mesh, ramp(4), options);
+  std::string header(8, ' ');
+  std::ifstream(file, std::ios::binary).read(header.data(), 8);
+  EXPECT_EQ(header, "\x89PNG\r\n\x1a\n");
+  std::filesystem::remove(file);
+  EXPECT_EQ(std::getenv("DISPLAY"), nullptr);
+  if (before != nullptr) ::setenv("DISPLAY", kept.c_str(), 1);
+}

@@ -1,0 +1,69 @@
+#include "visual/scale.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "visual/colour_map.h"
+
+using namespace interflect::visual;
+
+TEST(Scale, numbers_are_rounded_up_to_round_ones) {
+  const std::pair<double, double> known[] = {{0.97, 1}, {1, 1}, {1.01, 1.2}, {437, 500}, {6.1e-7, 8e-7}, {8.5, 10}, {0, 1}, {-3, 1}};
+  for (const auto& [x, round] : known) EXPECT_NEAR(round_up(x) / round, 1, 1e-12) << x;
+}
+
+TEST(Scale, the_range_ends_above_the_99th_percentile_by_area) {
+  const double values[] = {1, 20, 430, 9000}, areas[] = {50, 40, 9.5, 0.5};
+  EXPECT_EQ(range_of(values, areas, false).high, 500);
+  EXPECT_EQ(range_of(values, areas, false).low, 0);
+  const double differences[] = {-3, 1, std::nan("")};
+  EXPECT_EQ(range_of(differences, {}, true).low, -3);
+  EXPECT_EQ(range_of(differences, {}, true).high, 3);
+}
+
+TEST(Scale, ticks_are_round_and_reach_the_ends) {
+  EXPECT_EQ(ticks_of({0, 500}), (std::vector<double>{0, 100, 200, 300, 400, 500}));
+  EXPECT_EQ(ticks_of({0, 2}).size(), 5u);
+  for (double high : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0})
+    for (double ten : {1e-6, 1.0, 1e5})
+      for (double low : {0.0, -high * ten}) {
+        const std::vector<double> ticks = ticks_of({low, high * ten});
+        EXPECT_NEAR(ticks.front(), low, 1e-9 * high * ten);
+        EXPECT_NEAR(ticks.back() / (high * ten), 1, 1e-9);
+        EXPECT_GE(ticks.size(), 5u);
+        EXPECT_LE(ticks.size(), 13u);
+      }
+}
+
+TEST(Scale, labels_have_the_digits_that_their_steps_need) {
+  EXPECT_EQ(tick_label(0, 100), "0");
+  EXPECT_EQ(tick_label(500, 100), "500");
+  EXPECT_EQ(tick_label(12500, 2500), "12 500");
+  EXPECT_EQ(tick_label(-0.25, 0.25), "-0.25");
+  EXPECT_EQ(tick_label(0.5, 0.25), "0.5");
+  EXPECT_EQ(tick_label(2.5, 2.5), "2.5");
+  EXPECT_EQ(tick_label(2e7, 1e7), "2e+07");
+  EXPECT_EQ(tick_label(2e-7, 1e-7), "2e-07");
+}
+
+TEST(ColourMap, lightness_grows_with_the_number) {
+  for (ColourMap map : {ColourMap::plasma, ColourMap::viridis, ColourMap::inferno}) {
+    double before = -1;
+    for (int i = 0; i <= 64; ++i) {
+      const Colour c = colour_of(map, i / 64.0);
+      const double light = 0.2126 * std::pow(c[0], 2.2) + 0.7152 * std::pow(c[1], 2.2) + 0.0722 * std::pow(c[2], 2.2);
+      EXPECT_GT(light, before * 0.999) << i;
+      before = light;
+    }
+  }
+}
+
+TEST(ColourMap, blue_is_low_and_red_or_yellow_is_high) {
+  const Colour low = colour_of(ColourMap::plasma, 0), high = colour_of(ColourMap::plasma, 1);
+  EXPECT_GT(low[2], 2 * low[0]);
+  EXPECT_GT(high[0], 2 * high[2]);
+  EXPECT_EQ(colour_of(ColourMap::blue_white_red, 0.5), (Colour{247, 247, 247}));
+  EXPECT_EQ(colour_of(ColourMap::plasma, std::nan("")), no_data);
+  EXPECT_EQ(colour_of(ColourMap::plasma, 7), high);
+}

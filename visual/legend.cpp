@@ -1,0 +1,89 @@
+#include "visual/legend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "visual/text.h"
+
+namespace interflect::visual {
+
+namespace {
+
+constexpr Colour ink{45, 45, 45}, faint{150, 150, 150};
+
+void fill(core::Image& picture, int left, int top, int width, int height, Colour colour) {
+  for (int y = std::max(0, top); y < std::min(picture.height, top + height); ++y)
+    for (int x = std::max(0, left); x < std::min(picture.width, left + width); ++x)
+      for (int c = 0; c < 3; ++c) picture.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]) / 255.0F;
+}
+
+/// Everything of a legend that has a size before it has a place.
+struct Measured {
+  struct Tick {
+    double part;
+    TextLine label;
+  };
+  TextLine title;
+  std::vector<Tick> ticks;
+  int bar = 0, labels = 0;  ///< widths
+  int width(int gap) const { return std::max(title.width, bar + gap + labels); }
+};
+
+Measured measured(const Legend& legend, int size) {
+  Measured m;
+  m.title = set_in_type(legend.title, size);
+  m.bar = (size * 3) / 2;
+  const std::vector<double> ticks = ticks_of(legend.range);
+  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : legend.range.high - legend.range.low;
+  for (double t : ticks) {
+    std::string label = tick_label(t, step);
+    const double near = 1e-6 * step;
+    if (legend.open_above && t > legend.range.high - near) label += "+";
+    if (legend.open_below && t < legend.range.low + near) label = "< " + label;
+    m.ticks.push_back({legend.range.part(t), set_in_type(label, size)});
+    m.labels = std::max(m.labels, m.ticks.back().label.width);
+  }
+  return m;
+}
+
+void draw_bar(core::Image& canvas, const Legend& legend, const Measured& m, int left, int top, int height, int size) {
+  const int line = std::max(1, size / 16);
+  fill(canvas, left - line, top - line, m.bar + 2 * line, height + 2 * line, faint);
+  for (int y = 0; y < height; ++y)
+    fill(canvas, left, top + y, m.bar, 1, colour_of(legend.map, 1 - (y + 0.5) / height));
+  for (const Measured::Tick& tick : m.ticks) {
+    const int y = top + static_cast<int>(std::lround((1 - tick.part) * (height - 1)));
+    fill(canvas, left + m.bar, y - line / 2, size / 3, line, faint);
+    draw_text(canvas, tick.label, left + m.bar + (2 * size) / 3, y + static_cast<int>(std::lround(0.36 * size)), ink);
+  }
+}
+
+}  // namespace
+
+core::Image framed(const core::Image& picture, const std::string& caption, const Legend* legend, int* left, int* top) {
+  const int size = std::clamp(picture.height / 34, 13, 60), margin = size;
+  const TextLine title = set_in_type(caption, size + size / 6, true);
+  const int head = title.empty() ? margin : margin + 2 * size;
+  const Measured m = legend != nullptr ? measured(*legend, size) : Measured{};
+  const int gap = (2 * size) / 3;
+  const int strip = legend != nullptr ? margin + m.width(gap) : 0;
+
+  core::Image canvas(margin + picture.width + strip + margin, head + picture.height + margin, {"R", "G", "B"});
+  std::fill(canvas.data.begin(), canvas.data.end(), 1.0F);
+  for (int y = 0; y < picture.height; ++y)
+    std::copy_n(picture.data.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)), picture.offset(picture.width, 0),
+                canvas.data.begin() + static_cast<std::ptrdiff_t>(canvas.offset(margin, head + y)));
+  draw_text(canvas, title, margin, margin + size + size / 8, ink);
+  if (legend != nullptr) {
+    const int x = margin + picture.width + margin;
+    const int bar_top = head + (m.title.empty() ? size / 2 : (9 * size) / 4);
+    draw_text(canvas, m.title, x, head + size, ink);
+    draw_bar(canvas, *legend, m, x, bar_top, head + picture.height - bar_top - size / 2, size);
+  }
+  if (left != nullptr) *left = margin;
+  if (top != nullptr) *top = head;
+  return canvas;
+}
+
+}  // namespace interflect::visual

@@ -1,0 +1,107 @@
+#include "visual/picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "results/image_file.h"
+#include "results/tone_mapping.h"
+#include "visual/legend.h"
+#include "visual/raster.h"
+#include "visual/shading.h"
+#include "visual/view.h"
+
+namespace interflect::visual {
+
+namespace {
+
+constexpr Colour white{255, 255, 255}, black{0, 0, 0}, dark_back{70, 70, 70};
+
+std::vector<double> areas_of(const mesh::ElementMesh& mesh) {
+  std::vector<double> areas;
+  for (const scene::SurfacePatch& patch : mesh.patches()) areas.push_back(patch.area);
+  return areas;
+}
+
+void require_size(std::size_t values, const mesh::ElementMesh& mesh) {
+  if (mesh.size() == 0 || values != static_cast<std::size_t>(mesh.size()))
+    throw core::PreconditionError("picture: one value per element expected");
+}
+
+void append(Polygons& to, const Polygons& more) {
+  to.corners.insert(to.corners.end(), more.corners.begin(), more.corners.end());
+  to.sizes.insert(to.sizes.end(), more.sizes.begin(), more.sizes.end());
+  to.colours.insert(to.colours.end(), more.colours.begin(), more.colours.end());
+}
+
+std::string with_squares(std::string text) {
+  for (std::size_t at; (at = text.find("m2")) != std::string::npos;) text.replace(at, 2, "m\xc2\xb2");
+  return text;
+}
+
+/// Where one looks from, and what is behind everything.
+void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh& mesh, const std::optional<scene::Camera>& camera,
+              int width, int height, Colour backs, Colour behind) {
+  raster.camera = camera ? *camera : outside_view(scene, width, height);
+  raster.background = camera ? behind : white;
+  if (camera) append(raster.fronts, black_backs(scene, mesh, backs));
+}
+
+}  // namespace
+
+core::Image false_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                         std::span<const double> values, const FalseColour& options) {
+  require_size(values.size(), mesh);
+  const bool diverging = options.map == ColourMap::blue_white_red;
+  Legend legend{with_squares(options.title), options.map, {}, false, false};
+  legend.range = options.range ? *options.range : range_of(values, areas_of(mesh), diverging);
+  if (!(legend.range.high > legend.range.low)) throw core::PreconditionError("picture: an ascending range expected");
+  std::vector<Colour> colours;
+  for (double v : values) {
+    colours.push_back(colour_of(options.map, legend.range.part(v)));
+    legend.open_above = legend.open_above || v > legend.range.high;
+    legend.open_below = legend.open_below || v < legend.range.low;
+  }
+  Raster raster;
+  raster.fronts = flat(mesh, colours);
+  raster.edges = options.edges;
+  set_view(raster, scene, mesh, options.camera, options.width, options.height, dark_back, white);
+  return framed(rasterised(display, raster), options.caption, &legend);
+}
+
+core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                        std::span<const std::array<double, 3>> rgb, const TrueColour& options) {
+  require_size(rgb.size(), mesh);
+  double bright = options.white;
+  if (!(bright > 0)) {
+    std::vector<double> largest;
+    for (const auto& colour : rgb) largest.push_back(std::max({colour[0], colour[1], colour[2]}));
+    bright = results::weighted_quantile(largest, areas_of(mesh), 0.99);
+  }
+  if (!(bright > 0)) bright = 1;
+  Raster raster;
+  if (options.smooth) {
+    raster.fronts = smooth(mesh, rgb, bright);
+  } else {
+    std::vector<Colour> colours;
+    for (const auto& colour : rgb) colours.push_back(display_colour(colour, bright));
+    raster.fronts = flat(mesh, colours);
+  }
+  set_view(raster, scene, mesh, options.camera, options.width, options.height, black, black);
+  const core::Image picture = rasterised(display, raster);
+  return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
+}
+
+void write_false_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                        std::span<const double> values, const FalseColour& options) {
+  const Display display;
+  results::write_png(file, false_colour(display, scene, mesh, values, options));
+}
+
+void write_true_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                       std::span<const std::array<double, 3>> rgb, const TrueColour& options) {
+  const Display display;
+  results::write_png(file, true_colour(display, scene, mesh, rgb, options));
+}
+
+}  // namespace interflect::visual

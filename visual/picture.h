@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/image.h"
+#include "mesh/element_mesh.h"
+#include "scene/scene.h"
+#include "visual/colour_map.h"
+#include "visual/display.h"
+#include "visual/scale.h"
+
+/// Pictures of values on elements, drawn off-screen.
+///
+/// A view is a camera of the scene, framed pixel by pixel as the path tracer frames it (sides without an element are drawn dark); or,
+/// without one, from outside, through the walls whose backs one would see.
+namespace interflect::visual {
+
+/// Numbers as colours, with a legend.
+struct FalseColour {
+  std::string title;    ///< of the legend, with the unit: "irradiance [lx]" ("m2" is set as m²)
+  std::string caption;  ///< over the picture
+  ColourMap map = ColourMap::plasma;
+  std::optional<Range> range = {};  ///< default: 0 to the 99th percentile by area, rounded up; symmetric for blue_white_red
+  std::optional<scene::Camera> camera = {};
+  int width = 1200, height = 900;  ///< of the view from outside [pixels]; a camera has its own
+  bool edges = false;              ///< of the elements
+};
+
+/// @param values  one per element; NaN: grey
+core::Image false_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                         std::span<const double> values, const FalseColour& options);
+
+/// What an eye would see, tone mapped as results::ToneMapping says.
+struct TrueColour {
+  std::string caption;
+  double white = 0;    ///< value shown as white; 0: the 99th percentile by area
+  bool smooth = true;  ///< interpolated inside surfaces; else each element in one colour
+  std::optional<scene::Camera> camera = {};
+  int width = 1200, height = 900;
+};
+
+/// @param rgb  linear red, green, blue per element, for instance scene.rgb(radiosity / pi)
+core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                        std::span<const std::array<double, 3>> rgb, const TrueColour& options);
+
+/// The same as PNG files, on a display that exists for this picture alone.
+/// @throws core::InputError  without a display, or if the file cannot be written
+void write_false_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                        std::span<const double> values, const FalseColour& options);
+void write_true_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                       std::span<const std::array<double, 3>> rgb, const TrueColour& options);
+
+}  // namespace interflect::visual

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/image.h"
+#include "scene/camera.h"
+#include "visual/display.h"
+#include "visual/shading.h"
+
+namespace interflect::visual {
+
+/// What stands before a camera, drawn without light: colours are what they are.
+struct Raster {
+  Polygons fronts;       ///< seen from the side around which their corners run counter-clockwise
+  bool edges = false;    ///< drawn over them, a quarter dark
+  Colour background{255, 255, 255};
+  scene::Camera camera;  ///< pixels as in scene::Camera
+};
+
+/// [0, 1] sRGB, channels R, G, B.  Every pixel is the mean of 3 x 3 (2 x 2 and 1 above 2 700 and 4 000 pixels a side).
+core::Image rasterised(const Display& display, const Raster& raster);
+
+}  // namespace interflect::visual
