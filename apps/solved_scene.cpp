@@ -33,10 +33,10 @@ std::string describe(const fem::Forecast& forecast) {
 std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run) {
   scene::Scene scene = read_and_note(options.scene);
   const fem::Forecast forecast = fem::forecast(scene, options.settings, run);
+  if (!options.forecast_only) results::prepare_output_directory(options.out);
   if (!common.json && !common.quiet) std::printf("%s\n", describe(forecast).c_str());
   std::fflush(stdout);
   if (options.forecast_only) return nullptr;
-  results::prepare_output_directory(options.out);
   auto solution = fem::solve_radiosity(scene, options.settings, run);
   auto points = measure::sensor_points(scene);
   auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution), std::move(points));

@@ -197,20 +197,26 @@ void compare_with_bare_embree(const scene::Scene& scene, const std::vector<measu
   for (int round = 0; round < rounds; ++round) {
     paths_s.push_back(seconds([&] { trace(*caster); }));
     bare_s.push_back(seconds([&] { hits += bare.in_order(); }));
-    closest_s.push_back(seconds([&] { for (const auto& ray : recorder.rays) hits += caster->closest(ray).has_value(); }));
+    closest_s.push_back(seconds([&] {
+      for (const auto& ray : recorder.rays) hits += caster->closest(ray).has_value();
+    }));
     bare_closest_s.push_back(seconds([&] { hits += bare.closest(); }));
-    single_s.push_back(seconds([&] { for (const auto& segment : recorder.segments) hits += caster->occluded(segment); }));
+    single_s.push_back(seconds([&] {
+      for (const auto& segment : recorder.segments) hits += caster->occluded(segment);
+    }));
     bare_single_s.push_back(seconds([&] { hits += bare.occluded(); }));
     eight_s.push_back(seconds([&] { caster->occluded(recorder.segments, blocked); }));
     bare_eight_s.push_back(seconds([&] { hits += bare.occluded_by_eight(); }));
   }
   const auto paths = static_cast<double>(samplers.size() * samples_each), rays = static_cast<double>(bare.rays());
   std::printf("one thread: %.2f M paths/s, %.1f rays a path, %.2f M rays/s = %.0f %% of bare Embree's %.2f M rays/s\n",
-              1e-6 * paths / median(paths_s), rays / paths, 1e-6 * rays / median(paths_s), 100 * median(bare_s) / median(paths_s),
-              1e-6 * rays / median(bare_s));
-  const auto line = [](const char* what, std::size_t n, const std::vector<double>& ours, const std::vector<double>& theirs) {
-    std::printf("  caster, %-22s %6.2f M/s = %3.0f %% of bare Embree's %6.2f M/s\n", what, 1e-6 * static_cast<double>(n) / median(ours),
-                100 * median(theirs) / median(ours), 1e-6 * static_cast<double>(n) / median(theirs));
+              1e-6 * paths / median(paths_s), rays / paths, 1e-6 * rays / median(paths_s),
+              100 * median(bare_s) / median(paths_s), 1e-6 * rays / median(bare_s));
+  const auto line = [](const char* what, std::size_t n, const std::vector<double>& ours,
+                       const std::vector<double>& theirs) {
+    std::printf("  caster, %-22s %6.2f M/s = %3.0f %% of bare Embree's %6.2f M/s\n", what,
+                1e-6 * static_cast<double>(n) / median(ours), 100 * median(theirs) / median(ours),
+                1e-6 * static_cast<double>(n) / median(theirs));
   };
   line("closest", recorder.rays.size(), closest_s, bare_closest_s);
   line("occluded", recorder.segments.size(), single_s, bare_single_s);
@@ -233,10 +239,10 @@ void time_to_one_percent(const scene::Scene& scene, const std::vector<measure::M
     samples += static_cast<double>(e.samples);
   }
   std::sort(relative.begin(), relative.end());
-  std::printf("two threads: 1 %% on %zu elements in %.1f s (forecast %.1f s), %.1f M paths, %.2f M paths/s\n", asked.size(), took, forecast,
-              1e-6 * samples, 1e-6 * samples / took);
-  std::printf("  relative standard error: median %.2f %%, 95 %% of elements below %.2f %%, largest %.2f %%\n", 100 * relative[relative.size() / 2],
-              100 * relative[relative.size() * 95 / 100], 100 * relative.back());
+  std::printf("two threads: 1 %% on %zu elements in %.1f s (forecast %.1f s), %.1f M paths, %.2f M paths/s\n",
+              asked.size(), took, forecast, 1e-6 * samples, 1e-6 * samples / took);
+  std::printf("  relative standard error: median %.2f %%, 95 %% of elements below %.2f %%, largest %.2f %%\n",
+              100 * relative[relative.size() / 2], 100 * relative[relative.size() * 95 / 100], 100 * relative.back());
 }
 
 }  // namespace

@@ -1,18 +1,6 @@
 #include "fem/element_point.h"
 
-#include <cmath>
-
-#include "fem/quadrature.h"
-
 namespace interflect::fem {
-
-WeightedPoint element_point(const scene::SurfacePatch& patch, double s, double t) {
-  if (patch.corners == 3) {
-    const double root = std::sqrt(s);
-    return {point_on(patch.ring(), root * (1.0 - t), root * t), 1.0};
-  }
-  return {point_on(patch.ring(), s, t), jacobian(patch.ring(), s, t) / patch.area};
-}
 
 std::array<scene::SurfacePatch, 4> quarters_of(const scene::SurfacePatch& patch) {
   const auto& p = patch.corner;

@@ -32,7 +32,7 @@ std::vector<double> cumulative_shares(const scene::Scene& scene, std::span<const
 
 raycast::Ray ray_from(const scene::SurfacePatch& patch, core::RandomNumbers& random, double& weight) {
   const double s = random.next(), t = random.next();
-  const WeightedPoint from = element_point(patch, s, t);
+  const WeightedPoint from = ElementMap(patch)(s, t);
   weight = from.weight;
   const double radius_squared = random.next(), angle = 2.0 * pi * random.next();
   const Vec3 n = patch.normal(), u = n.unitOrthogonal(), v = n.cross(u);

@@ -103,12 +103,13 @@ std::vector<Gather::Unproved> Gather::unproved_elements(const Receiver& at, Gath
 /// The rays to one part, in strata of equal size.
 void Gather::cast(const Receiver& at, const Part& part, Index element, int side, Rays& rays) const {
   const Vec3& normal = shapes_[element].plane.normal;
+  const ElementMap onto(part.patch);
   rays.segments.clear();
   rays.weights.clear();
   for (int k = 0; k < side * side; ++k) {
     const std::uint32_t number = part.path * static_cast<std::uint32_t>(most_rays_per_side * most_rays_per_side) + static_cast<std::uint32_t>(k);
     const auto u = core::random_block(seed_, static_cast<std::uint32_t>(element), at.key, number);
-    const auto y = element_point(part.patch, (k / side + core::uniform_32(u[0])) / side, (k % side + core::uniform_32(u[1])) / side);
+    const auto y = onto((k / side + core::uniform_32(u[0])) / side, (k % side + core::uniform_32(u[1])) / side);
     const Vec3 d = y.position - at.x;
     const double arrives = at.normal.dot(d), leaves = -normal.dot(d), square = d.squaredNorm();
     if (arrives <= 0.0 || leaves <= 0.0) continue;

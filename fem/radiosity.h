@@ -67,7 +67,7 @@ struct RadiositySolution {
   std::vector<Spectrum> field_error;       ///< |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h
   std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size, on this mesh (its parent's value)
   std::vector<double> row_sum;             ///< sum_j F_ij
-  bool closed = false;                     ///< no ray that left an element was lost
+  bool closed = false;                       ///< no ray that left an element was lost
   solvers::SolverReport solver;
   PairCounts pairs;
   RowSums rows;

@@ -8,7 +8,8 @@ namespace {
 
 class Build {
  public:
-  Build(std::span<const Box> boxes, std::uint32_t leaf_size, std::vector<BoxTree::Node>& nodes, std::vector<std::uint32_t>& items)
+  Build(std::span<const Box> boxes, std::uint32_t leaf_size, std::vector<BoxTree::Node>& nodes,
+        std::vector<std::uint32_t>& items)
       : boxes_(boxes), leaf_size_(std::max(leaf_size, 1u)), nodes_(nodes), items_(items) {}
 
   std::uint32_t subtree(std::uint32_t first, std::uint32_t count) {

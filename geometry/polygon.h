@@ -26,8 +26,8 @@ struct PlanarPolygon {
 
 /// The plane n . x = offset.
 struct Plane {
-  Vec3 normal;    ///< unit length
-  double offset;  ///< [m]
+  Vec3 normal;                                                             ///< unit length
+  double offset;                                                           ///< [m]
   double distance(const Vec3& x) const { return normal.dot(x) - offset; }  ///< signed [m], positive in front
 };
 

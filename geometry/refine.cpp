@@ -24,7 +24,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase =
     CGAL::Delaunay_mesh_vertex_base_2<Kernel, CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, CGAL::Delaunay_mesh_face_base_2<Kernel>>, CGAL::Exact_predicates_tag>;
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, CGAL::Delaunay_mesh_face_base_2<Kernel>>,
+    CGAL::Exact_predicates_tag>;
 using Point = Triangulation::Point;
 using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
 
@@ -55,13 +56,16 @@ void insert_ring(Triangulation& triangulation, const Frame& frame, const Ring& r
     corners.push_back(triangulation.insert(frame.to_plane(r)));
     corners.back()->info().corner = r;
   }
-  for (std::size_t k = 0; k < corners.size(); ++k) triangulation.insert_constraint(corners[k], corners[(k + 1) % corners.size()]);
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    triangulation.insert_constraint(corners[k], corners[(k + 1) % corners.size()]);
 }
 
 /// A point well inside a ring: the middle of the largest of its triangles.
 Vec3 point_inside(const Ring& ring) {
   const auto triangles = triangulate({ring, {}});
-  const auto smaller = [](const TriangleCorners& s, const TriangleCorners& t) { return vector_area(s).norm() < vector_area(t).norm(); };
+  const auto smaller = [](const TriangleCorners& s, const TriangleCorners& t) {
+    return vector_area(s).norm() < vector_area(t).norm();
+  };
   const TriangleCorners& best = *std::max_element(triangles.begin(), triangles.end(), smaller);
   return (best[0] + best[1] + best[2]) / 3;
 }
@@ -75,7 +79,8 @@ IndexedTriangles collect(const Triangulation& triangulation, const Frame& frame)
   }
   for (const auto face : triangulation.finite_face_handles())
     if (face->is_in_domain())
-      result.triangles.push_back({face->vertex(0)->info().index, face->vertex(1)->info().index, face->vertex(2)->info().index});
+      result.triangles.push_back(
+          {face->vertex(0)->info().index, face->vertex(1)->info().index, face->vertex(2)->info().index});
   return result;
 }
 

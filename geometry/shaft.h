@@ -30,7 +30,8 @@ class Shaft {
   bool may_block(const Vec3& p, const Vec3& q, const Vec3& r) const {
     for (int k = 0; k < planes_; ++k) {
       const Side& side = sides_[static_cast<std::size_t>(k)];
-      if (side.normal.dot(p) <= side.offset && side.normal.dot(q) <= side.offset && side.normal.dot(r) <= side.offset) return false;
+      if (side.normal.dot(p) <= side.offset && side.normal.dot(q) <= side.offset && side.normal.dot(r) <= side.offset)
+        return false;
     }
     return !leaves_hull_aside(p, q, r);
   }

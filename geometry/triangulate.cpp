@@ -16,9 +16,11 @@ struct FaceInfo {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Vec3, Kernel>;  // its corner in space
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using FaceBase =
+    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Face = Triangulation::Face_handle;
 using Vertex = Triangulation::Vertex_handle;
 
@@ -30,10 +32,13 @@ void insert_ring(Triangulation& triangulation, const AxisShadow& shadow, std::sp
     corners.back()->info() = r;
   }
   for (std::size_t k = 0; k < corners.size(); ++k)
-    if (const Vertex next = corners[(k + 1) % corners.size()]; next != corners[k]) triangulation.insert_constraint(corners[k], next);
+    if (const Vertex next = corners[(k + 1) % corners.size()]; next != corners[k])
+      triangulation.insert_constraint(corners[k], next);
 }
 
-TriangleCorners corners_of(const Face& face) { return {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()}; }
+TriangleCorners corners_of(const Face& face) {
+  return {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
+}
 
 /// Marks how many rings lie between each face and infinity: a flood that is held back by constraints, level by level.
 void mark_depths(Triangulation& triangulation) {
@@ -54,7 +59,8 @@ void mark_depths(Triangulation& triangulation) {
 /// Whether the middle of a triangle is enclosed by the ring, by the parity of the edges on its right: edges that are there twice
 /// do not count.
 bool is_inside(std::span<const Vec3> ring, const AxisShadow& shadow, const Face& face) {
-  const Triangulation::Point middle = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
+  const Triangulation::Point middle =
+      CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
   bool inside = false;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec3 &r = ring[k], &s = ring[(k + 1) % ring.size()];
@@ -69,7 +75,8 @@ bool is_inside(std::span<const Vec3> ring, const AxisShadow& shadow, const Face&
 
 std::vector<TriangleCorners> triangulate(const PlanarPolygon& polygon) {
   require_valid(polygon);
-  if (polygon.outer.size() == 3 && polygon.holes.empty()) return {{polygon.outer[0], polygon.outer[1], polygon.outer[2]}};
+  if (polygon.outer.size() == 3 && polygon.holes.empty())
+    return {{polygon.outer[0], polygon.outer[1], polygon.outer[2]}};
   const AxisShadow shadow(vector_area(polygon.outer));
   Triangulation triangulation;
   insert_ring(triangulation, shadow, polygon.outer);

@@ -85,13 +85,14 @@ void require_no_crossing(const Shadow& shadow) {
     std::optional<std::size_t> met;
     tree.traverse([&](const Box& box) { return box.intersects(boxes[i]); },
                   [&](std::uint32_t j) {
-                    if (j > i && in_conflict(shadow, shadow.edges[i], shadow.edges[j])) met = std::min<std::size_t>(met.value_or(j), j);
+                    if (j > i && in_conflict(shadow, shadow.edges[i], shadow.edges[j]))
+                      met = std::min<std::size_t>(met.value_or(j), j);
                   });
     if (!met) continue;
     const Edge &e = shadow.edges[i], &f = shadow.edges[*met];
     if (e.ring == f.ring)
-      throw Defect(core::format("%s crosses or touches itself: the edges after corners %zu and %zu meet", name_of(e.ring).c_str(),
-                                e.corner, f.corner));
+      throw Defect(core::format("%s crosses or touches itself: the edges after corners %zu and %zu meet",
+                                name_of(e.ring).c_str(), e.corner, f.corner));
     throw Defect(core::format("%s touches or crosses %s", name_of(e.ring).c_str(), name_of(f.ring).c_str()));
   }
 }
@@ -111,7 +112,8 @@ void require_nesting(const Shadow& shadow) {
   for (std::size_t i = 1; i < shadow.rings.size(); ++i) {
     if (!encloses(shadow.rings[0], shadow.rings[i][0])) throw Defect(name_of(i) + " is not inside the outline");
     for (std::size_t j = 1; j < shadow.rings.size(); ++j)
-      if (j != i && encloses(shadow.rings[j], shadow.rings[i][0])) throw Defect(name_of(i) + " lies inside " + name_of(j));
+      if (j != i && encloses(shadow.rings[j], shadow.rings[i][0]))
+        throw Defect(name_of(i) + " lies inside " + name_of(j));
   }
 }
 
@@ -135,8 +137,9 @@ void require_valid(const PlanarPolygon& polygon) {
   for (std::size_t h = 0; h < polygon.holes.size(); ++h) require_ring(polygon.holes[h], h + 1);
   const double error = relative_planarity_error(polygon);
   if (!(error <= planarity_tolerance))
-    throw Defect(core::format("the polygon is not planar: a corner lies %.3g of its diameter out of plane, at most %.0e is allowed",
-                              error, planarity_tolerance));
+    throw Defect(core::format(
+        "the polygon is not planar: a corner lies %.3g of its diameter out of plane, at most %.0e is allowed", error,
+        planarity_tolerance));
   const Shadow shadow(polygon);
   require_no_crossing(shadow);
   require_nesting(shadow);

@@ -20,7 +20,8 @@ Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce aggregates
 
 }  // namespace
 
-Spectrum pixel_sample(const scene::Camera& camera, int x, int y, const PathEstimator& paths, core::RandomNumbers& numbers) {
+Spectrum pixel_sample(const scene::Camera& camera, int x, int y, const PathEstimator& paths,
+                      core::RandomNumbers& numbers) {
   numbers.jump(place_block);
   const double u = numbers.next(), v = numbers.next();
   return paths.radiance(camera.eye, camera.direction(x + u, y + v), numbers, path_block);
@@ -38,10 +39,12 @@ MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure:
     point_ = {m.position, m.normal};
   };
   const auto pixel = [&](const measure::PixelRadiance& m) {
-    if (m.camera.value >= scene.cameras.size()) throw core::InputError("pixel radiance", "a camera of the scene expected");
+    if (m.camera.value >= scene.cameras.size())
+      throw core::InputError("pixel radiance", "a camera of the scene expected");
     camera_ = &scene.camera(m.camera);
     if (m.x < 0 || m.y < 0 || m.x >= camera_->width || m.y >= camera_->height)
-      throw core::InputError(core::format("pixel (%d, %d)", m.x, m.y), "a pixel of camera '" + camera_->name + "' expected");
+      throw core::InputError(core::format("pixel (%d, %d)", m.x, m.y),
+                             "a pixel of camera '" + camera_->name + "' expected");
     kind_ = Kind::pixel;
     scale_ = inv_pi;
     x_ = m.x, y_ = m.y;
@@ -63,9 +66,12 @@ void MeasurementSampler::set_regions(std::span<const scene::SurfacePatch> patche
 
 Spectrum MeasurementSampler::sample(const PathEstimator& paths, core::RandomNumbers& numbers) const {
   switch (kind_) {
-    case Kind::point: return paths.irradiance(point_, numbers, path_block);
-    case Kind::pixel: return pixel_sample(*camera_, x_, y_, paths, numbers);
-    case Kind::area: break;
+    case Kind::point:
+      return paths.irradiance(point_, numbers, path_block);
+    case Kind::pixel:
+      return pixel_sample(*camera_, x_, y_, paths, numbers);
+    case Kind::area:
+      break;
   }
   std::uint32_t region = 0;
   if (regions_.size() > 1) {

@@ -5,13 +5,15 @@
 
 namespace interflect::montecarlo {
 
-/// One sample of a pixel's radiance: a point uniform on the pixel, so that the mean is over its area on the image plane.
-Spectrum pixel_sample(const scene::Camera& camera, int x, int y, const PathEstimator& paths, core::RandomNumbers& numbers);
+/// One sample of a pixel's radiance: a point uniform on the pixel, so that the mean is over its area on the image
+/// plane.
+Spectrum pixel_sample(const scene::Camera& camera, int x, int y, const PathEstimator& paths,
+                      core::RandomNumbers& numbers);
 
 /// A measurement made ready to be sampled.
 class MeasurementSampler {
  public:
-  /// @throws core::InputError  for a patch without area, a direction that is not a unit vector, or a camera or pixel that
+  /// @throws core::InputError  for a patch without area, a direction that is not a unit vector, a camera or pixel that
   ///                           the scene does not have
   MeasurementSampler(const scene::Scene& scene, const measure::Measurement& asked);
 

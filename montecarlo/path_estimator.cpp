@@ -15,7 +15,8 @@ double balanced(double pdf_area, double G) { return 1 / (1 + pi * pdf_area / G);
 
 }  // namespace
 
-PathEstimator::PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster) : caster_(caster), emitters_(scene) {
+PathEstimator::PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster)
+    : caster_(caster), emitters_(scene) {
   optics_.reserve(2 * scene.surfaces.size());
   for (const scene::SurfaceId id : scene.surface_ids())
     for (const scene::Side side : {scene::Side::front, scene::Side::back})
@@ -26,7 +27,8 @@ Spectrum PathEstimator::irradiance(Receiver at, core::RandomNumbers& numbers, st
   Spectrum found, throughput(1);
   for (;; block += blocks_per_vertex) {
     numbers.jump(block);
-    const double u = numbers.next(), v = numbers.next(), pick = numbers.next(), on_u = numbers.next(), on_v = numbers.next();
+    const double u = numbers.next(), v = numbers.next(), pick = numbers.next(), on_u = numbers.next(),
+                 on_v = numbers.next();
     found += throughput * from_emitters(at, pick, on_u, on_v);
     const Vec3 local = cosine_hemisphere(u, v), direction = frame_around(at.normal).to_world(local);
     const auto hit = caster_.closest({at.position, direction, at.normal});
@@ -40,7 +42,8 @@ Spectrum PathEstimator::irradiance(Receiver at, core::RandomNumbers& numbers, st
   }
 }
 
-Spectrum PathEstimator::radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers, std::uint32_t block) const {
+Spectrum PathEstimator::radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers,
+                                 std::uint32_t block) const {
   const auto hit = caster_.closest({eye, direction});
   if (!hit) return Spectrum::zero();
   const Optics& seen = optics(*hit);
@@ -61,7 +64,8 @@ Spectrum PathEstimator::from_emitters(const Receiver& at, double pick, double u,
   return y.exitance * balanced(y.pdf_area, cos_x_r * cos_y_r / (r2 * r2));
 }
 
-Spectrum PathEstimator::from_hit(const Receiver& at, const Vec3& direction, double cos_x, const scene::SurfacePoint& hit) const {
+Spectrum PathEstimator::from_hit(const Receiver& at, const Vec3& direction, double cos_x,
+                                 const scene::SurfacePoint& hit) const {
   const Spectrum& exitance = optics(hit).exitance;
   if (exitance.is_zero()) return Spectrum::zero();
   const double cos_y = -direction.dot(hit.normal);

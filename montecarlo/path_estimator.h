@@ -6,8 +6,8 @@
 
 namespace interflect::montecarlo {
 
-/// A place that light arrives at, from the hemisphere of `normal` (unit).  Rays leave it as they leave a surface (raycast::Ray),
-/// also where it is a point in free space: it may lie on a surface by chance.
+/// A place that light arrives at, from the hemisphere of `normal` (unit).  Rays leave it as they leave a surface
+/// (raycast::Ray), also where it is a point in free space: it may lie on a surface by chance.
 struct Receiver {
   Vec3 position, normal;
 };
@@ -16,14 +16,16 @@ struct Receiver {
 ///
 ///   H(x) = ∫ B(y) cos_x cos_y / (pi r²) V(x, y) dA_y,   B(y) = E(y) + rho(y) H(y),   L = B / pi,
 ///
-/// by recursion on y, drawn from cos_x / pi (so that H is estimated by B(y) itself).  The emitted part E of B is found by two
-/// techniques: that ray, and a point drawn on the emitters with pdf_area.  Under the balance heuristic [Veach and Guibas 1995,
-/// eq. 11] both score the same function of (x, y), since f / (p_1 + p_2) does not know which of the two drew y:
+/// by recursion on y, drawn from cos_x / pi (so that H is estimated by B(y) itself).  The emitted part E of B is found
+/// by two techniques: that ray, and a point drawn on the emitters with pdf_area.  Under the balance heuristic [Veach
+/// and Guibas 1995, eq. 11] both score the same function of (x, y), since f / (p_1 + p_2) does not know which of the
+/// two drew y:
 ///
 ///   E(y) / (1 + pi pdf_area(y) / G),   G = cos_x cos_y / r²,   p_1 = G / pi [1/m²],
 ///
-/// which is at most E: no singularity where walls and lights meet.  A path goes on from y with probability q = min(1, max_c T_c)
-/// where T is the product of rho / q so far: never cut by length, and T_c <= 1 always.  Backs of one-sided materials are black.
+/// which is at most E: no singularity where walls and lights meet.  A path goes on from y with probability q = min(1,
+/// max_c T_c) where T is the product of rho / q so far: never cut by length, and T_c <= 1 always.  Backs of one-sided
+/// materials are black.
 class PathEstimator {
  public:
   PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster);

@@ -12,23 +12,24 @@
 namespace interflect::montecarlo {
 
 struct PathTracerSettings {
-  std::uint64_t samples = 0;        ///< per measurement; 0: as many as `target` asks for
-  double target = 0.01;             ///< relative standard error, per measurement, of its weighted value
-  double target_floor = 1e-3;       ///< ... or absolute: this part of the scene's mean irradiance, so that dark places end
+  std::uint64_t samples = 0;   ///< per measurement; 0: as many as `target` asks for
+  double target = 0.01;        ///< relative standard error, per measurement, of its weighted value
+  double target_floor = 1e-3;  ///< ... or absolute: this part of the scene's mean irradiance, so that dark places end
   std::uint64_t max_samples = 1u << 20;
   std::string intersector = "embree";
 };
 
-/// Path tracing of diffuse scenes (Kajiya 1986): next-event estimation combined with direction sampling by multiple importance
-/// sampling (balance heuristic, Veach and Guibas 1995), Russian roulette without a depth limit.  Unbiased.
+/// Path tracing of diffuse scenes (Kajiya 1986): next-event estimation combined with direction sampling by multiple
+/// importance sampling (balance heuristic, Veach and Guibas 1995), Russian roulette without a depth limit.  Unbiased.
 ///
-/// With a target, a pilot of 256 samples (and a second of n / 8 where it asks for n > 2048) says how many are needed, at least
-/// 256, and is thrown away (Kirk and Arvo 1991): the answer stays unbiased.  Nearly all measurements reach the target.
-/// Sample k of measurement m is keyed by (seed, m, k): same bits for any number of threads.
+/// With a target, a pilot of 1024 samples (and a second of n / 8 where it asks for n > 8192) says how many are needed,
+/// at least 4096, and is thrown away (Kirk and Arvo 1991): the answer stays unbiased.  Nearly all measurements reach the
+/// target. Sample k of measurement m is keyed by (seed, m, k): same bits for any number of threads.
 ///
-/// Standard errors are those of independent paths.  A measurement whose every sample scored zero while something emits has the
-/// standard error 3 w / n instead of 0 (rule of three; w: twice the largest exitance, in the measurement's unit), so that "nothing
-/// found" is never told as "nothing there".  A scene without emitters is exactly dark: standard error 0, no samples.
+/// Standard errors are those of independent paths.  A measurement whose every sample scored zero while something emits
+/// has the standard error 3 w / n instead of 0 (rule of three; w: twice the largest exitance, in the measurement's
+/// unit), so that "nothing found" is never told as "nothing there".  A scene without emitters is exactly dark: standard
+/// error 0, no samples.
 class PathTracer final : public measure::Method {
  public:
   explicit PathTracer(PathTracerSettings settings = {}) : settings_(std::move(settings)) {}
@@ -38,7 +39,8 @@ class PathTracer final : public measure::Method {
   /// When the run is stopped, the estimates have fewer samples.
   /// @throws core::Interrupted  if some measurement has none yet
   /// @throws core::InputError   for a measurement that cannot be taken, or settings out of range
-  std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const override;
+  std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                               Run& run) const override;
 
   /// Seconds that `answer` will take, from a short trial; within a factor of two or so.
   double forecast(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const;

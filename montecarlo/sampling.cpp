@@ -41,7 +41,8 @@ class Waves {
   std::uint64_t round_ = 0;
 };
 
-Tally sample_block(const MeasurementSampler& measurement, const Block& block, const PathEstimator& paths, std::uint64_t seed) {
+Tally sample_block(const MeasurementSampler& measurement, const Block& block, const PathEstimator& paths,
+                   std::uint64_t seed) {
   Tally tally;
   for (std::uint64_t k = block.first; k < block.end; ++k) {
     core::RandomNumbers numbers(seed, block.measurement, k);
@@ -55,6 +56,7 @@ struct Pilot {
   const scene::Scene& scene;
   const PathEstimator& paths;
   const SamplingTarget& target;
+  double floor;  ///< absolute, for a measurement of scale 1
   std::uint64_t seed;
 
   std::uint64_t needed(const MeasurementSampler& measurement, std::uint32_t stream, std::uint64_t samples) const {
@@ -64,7 +66,7 @@ struct Pilot {
       weighted.add(Spectrum(scene.weigh(measurement.sample(paths, numbers))));
     }
     const double mean = std::abs(weighted.mean()[0]), variance = weighted.variance()[0], scale = measurement.scale();
-    const double wanted = std::max(target.relative * mean, target.floor * scale * mean_irradiance_scale(scene));
+    const double wanted = std::max(target.relative * mean, floor * scale);
     const double rule_of_three = 3 * scale * scene.weigh(paths.largest_score()) / wanted;
     const double n = variance > 0 ? pilot_margin * variance / (wanted * wanted) : mean > 0 ? 0 : rule_of_three;
     // Not a number (0 / 0, or the pilot met a sample that is not finite): the fewest will do.
@@ -107,10 +109,11 @@ double mean_irradiance_scale(const scene::Scene& scene) {
   return absorbing > 0 ? scene.weigh(scene.emitted_flux()) / absorbing : 0;
 }
 
-SamplingPlan plan_samples(const scene::Scene& scene, std::span<const MeasurementSampler> measurements, const PathEstimator& paths,
-                          const SamplingTarget& target, Run& run) {
-  const Pilot first{scene, paths, target, core::derived_seed(run.seed, "path tracer pilot")};
-  const Pilot second{scene, paths, target, core::derived_seed(run.seed, "path tracer second pilot")};
+SamplingPlan plan_samples(const scene::Scene& scene, std::span<const MeasurementSampler> measurements,
+                          const PathEstimator& paths, const SamplingTarget& target, Run& run) {
+  const double floor = target.floor * mean_irradiance_scale(scene);
+  const Pilot first{scene, paths, target, floor, core::derived_seed(run.seed, "path tracer pilot")};
+  const Pilot second{scene, paths, target, floor, core::derived_seed(run.seed, "path tracer second pilot")};
   core::Progress::Stage stage(run.progress, "path tracing pilot", measurements.size());
   SamplingPlan plan{std::vector<std::uint64_t>(measurements.size(), target.fewest)};
   std::vector<std::uint64_t> spent(measurements.size(), pilot_samples);

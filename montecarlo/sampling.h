@@ -10,8 +10,9 @@ namespace interflect::montecarlo {
 
 /// Samples 0 .. counts[m] - 1 of every measurement m, sample k being keyed by (seed, m, k).
 ///
-/// Cut into blocks of samples, so that a single measurement keeps all threads busy; the blocks of a measurement are merged in
-/// their order.  All measurements advance together: when the run is stopped, each has about the same part of its samples.
+/// Cut into blocks of samples, so that a single measurement keeps all threads busy; the blocks of a measurement are
+/// merged in their order.  All measurements advance together: when the run is stopped, each has about the same part of
+/// its samples.
 /// @throws core::Interrupted  if it is stopped before every measurement has two samples
 std::vector<Tally> sample_all(std::span<const MeasurementSampler> measurements, std::span<const std::uint64_t> counts,
                               const PathEstimator& paths, std::uint64_t seed, Run& run);
@@ -28,21 +29,23 @@ struct SamplingPlan {
   std::uint64_t spent = 0;            ///< samples of the pilots
 };
 
-/// How many samples each measurement needs, from pilots that are thrown away: so the answer stays unbiased [Kirk and Arvo 1991].
+/// How many samples each measurement needs, from pilots that are thrown away: so the answer stays unbiased [Kirk and
+/// Arvo 1991].
 ///
 ///   n = 1.5 s² / max(relative |mean|, floor H_scene scale)²,   mean and s² of the pilot's weighted samples;
 ///   3 w / n = floor H_scene scale  where all of the pilot scored zero (rule of three, as in Tally::estimate).
 ///
-/// The first pilot has 256 samples.  Where it asks for more than eight times as many, a second one of n / 8 samples decides: s²
-/// of few samples of a skewed distribution is too often far too small.  The factor 1.5 covers what noise is left, so that nearly
-/// all measurements reach their target.
+/// The first pilot has 1024 samples.  Where it asks for more than eight times as many, a second one of n / 8 samples
+/// decides: s² of few samples of a skewed distribution is too often far too small.  The factor 1.5 covers what noise is
+/// left, so that nearly all measurements reach their target.
 SamplingPlan plan_samples(const scene::Scene& scene, std::span<const MeasurementSampler> measurements,
-                                        const PathEstimator& paths, const SamplingTarget& target, Run& run);
+                          const PathEstimator& paths, const SamplingTarget& target, Run& run);
 
-/// Mean irradiance of all surfaces that can reflect if the scene were closed and well mixed: Phi / sum A (1 - rho), in weighted
-/// channels [lx | W/m²].  A scale, not an answer.
+/// Mean irradiance of all surfaces that can reflect if the scene were closed and well mixed: Phi / sum A (1 - rho), in
+/// weighted channels [lx | W/m²].  A scale, not an answer.
 double mean_irradiance_scale(const scene::Scene& scene);
 
-inline constexpr std::uint64_t pilot_samples = 256;
+inline constexpr std::uint64_t pilot_samples = 1024;   ///< enough to meet the rare bright path that makes most of the variance
+inline constexpr std::uint64_t fewest_samples = 4096;  ///< of a measurement with a target: its standard error is then worth something
 
 }  // namespace interflect::montecarlo

@@ -21,7 +21,8 @@ inline Frame frame_around(const Vec3& n) {
   return {{1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}, n};
 }
 
-/// A direction about +z with pdf_solid_angle = cos(theta) / pi [1/sr]; z > 0 always, for u < 1.  (Malley: a uniform disk, lifted.)
+/// A direction about +z with pdf_solid_angle = cos(theta) / pi [1/sr]; z > 0 always, for u < 1.  (Malley: a uniform
+/// disk, lifted.)
 inline Vec3 cosine_hemisphere(double u, double v) {
   const double r = std::sqrt(u), phi = 2 * pi * v;
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)};
@@ -34,11 +35,13 @@ inline Vec3 triangle_point(const Vec3& a, const Vec3& b, const Vec3& c, double u
   return a + s * (1 - v) * (b - a) + s * v * (c - a);
 }
 
-/// A point of a triangle or convex quad with pdf_area = 1 / patch.area: the quad's two triangles share u by their areas.
+/// A point of a triangle or convex quad with pdf_area = 1 / patch.area: the quad's two triangles share u by their
+/// areas.
 inline Vec3 patch_point(const scene::SurfacePatch& patch, double u, double v) {
   const auto& [a, b, c, d] = patch.corner;
   if (patch.corners == 3) return triangle_point(a, b, c, u, v);
-  const double first = (b - a).cross(c - a).norm(), second = (c - a).cross(d - a).norm(), part = first / (first + second);
+  const double first = (b - a).cross(c - a).norm(), second = (c - a).cross(d - a).norm(),
+               part = first / (first + second);
   return u < part ? triangle_point(a, b, c, u / part, v) : triangle_point(a, c, d, (u - part) / (1 - part), v);
 }
 

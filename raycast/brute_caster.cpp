@@ -16,10 +16,11 @@ struct Crossing {
 
 /// Where o + t d crosses a triangle whose corners a, b, c are given relative to o.
 ///
-/// With the signed volumes w_a = d . (b x c), w_b = d . (c x a), w_c = d . (a x b), the line passes through the triangle if they
-/// have one sign; they are its barycentric coordinates times their sum.  Two triangles that share an edge compute its volume
-/// from the same products and differ in sign alone (a x b = -(b x a) bit by bit, without contraction), and 0 counts as inside:
-/// no ray passes between them.  Source: Pluecker test, as in [Woop, Benthin, Wald 2013], section 2.
+/// With the signed volumes w_a = d . (b x c), w_b = d . (c x a), w_c = d . (a x b), the line passes through the
+/// triangle if they have one sign; they are its barycentric coordinates times their sum.  Two triangles that share an
+/// edge compute its volume from the same products and differ in sign alone (a x b = -(b x a) bit by bit, without
+/// contraction), and 0 counts as inside: no ray passes between them.  Source: Pluecker test, as in [Woop, Benthin, Wald
+/// 2013], section 2.
 std::optional<Crossing> cross(const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
   const double w_a = d.dot(b.cross(c)), w_b = d.dot(c.cross(a)), w_c = d.dot(a.cross(b));
   const bool positive = w_a >= 0 && w_b >= 0 && w_c >= 0, negative = w_a <= 0 && w_b <= 0 && w_c <= 0;
@@ -34,7 +35,8 @@ class BruteCaster final : public RayCaster {
   explicit BruteCaster(const scene::Scene& scene) : facets_(scene.facets), frame_(frame_of(scene)) {
     corners_.reserve(facets_.size());
     for (const scene::Facet& facet : facets_)
-      corners_.push_back({facet.corner[0] - frame_.centre, facet.corner[1] - frame_.centre, facet.corner[2] - frame_.centre});
+      corners_.push_back(
+          {facet.corner[0] - frame_.centre, facet.corner[1] - frame_.centre, facet.corner[2] - frame_.centre});
   }
 
   std::string name() const override { return "brute"; }
@@ -45,7 +47,8 @@ class BruteCaster final : public RayCaster {
     Crossing nearest{std::numeric_limits<double>::infinity(), 0, 0};
     std::size_t hit = corners_.size();
     for (std::size_t i = 0; i < corners_.size(); ++i)
-      if (const auto at = crossing(i, origin, ray.direction); at && at->t > 0 && at->t < nearest.t) nearest = *at, hit = i;
+      if (const auto at = crossing(i, origin, ray.direction); at && at->t > 0 && at->t < nearest.t)
+        nearest = *at, hit = i;
     if (hit == corners_.size()) return std::nullopt;
     return surface_point(facets_[hit], static_cast<std::uint32_t>(hit), ray.direction, nearest.u, nearest.v);
   }

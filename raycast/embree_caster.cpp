@@ -12,7 +12,8 @@ namespace interflect::raycast {
 
 namespace {
 
-constexpr double relative_offset = 0x1p-18;  ///< of the scene's largest dimension: 128 units in the last place of a coordinate
+constexpr double relative_offset =
+    0x1p-18;  ///< of the scene's largest dimension: 128 units of a coordinate's last place
 constexpr unsigned every_mask = ~0u;
 constexpr std::size_t lanes = 8;
 
@@ -113,9 +114,8 @@ class EmbreeCaster final : public RayCaster {
 
  private:
   static RTCRay ray_from(const Vec3& origin, const Vec3& direction, float tfar) {
-    const auto single = [](double x) { return static_cast<float>(x); };
-    return {single(origin.x()),    single(origin.y()),    single(origin.z()),    0, single(direction.x()), single(direction.y()),
-            single(direction.z()), 0, tfar, every_mask, 0, 0};
+    const Eigen::Vector3f o = origin.cast<float>(), d = direction.cast<float>();
+    return {o.x(), o.y(), o.z(), 0, d.x(), d.y(), d.z(), 0, tfar, every_mask, 0, 0};
   }
 
   void set_lane(RTCRay8& query, std::size_t lane, const Segment& segment) const {
@@ -159,6 +159,8 @@ class EmbreeCaster final : public RayCaster {
 
 }  // namespace
 
-std::unique_ptr<RayCaster> make_embree_caster(const scene::Scene& scene) { return std::make_unique<EmbreeCaster>(scene); }
+std::unique_ptr<RayCaster> make_embree_caster(const scene::Scene& scene) {
+  return std::make_unique<EmbreeCaster>(scene);
+}
 
 }  // namespace interflect::raycast

@@ -44,6 +44,7 @@ class RayCaster {
 };
 
 /// By name: "embree" (single precision, fast) or "brute" (double precision, every facet; for checking).
+/// The scene must outlive the caster, which reads the facets' corners in double precision.
 /// @throws core::InputError  with the names known
 std::unique_ptr<RayCaster> make_ray_caster(const std::string& name, const scene::Scene& scene);
 std::vector<std::string> ray_caster_names();

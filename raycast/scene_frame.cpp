@@ -13,7 +13,8 @@ SceneFrame frame_of(const scene::Scene& scene) {
   return {.centre = box.center(), .size = box.sizes().maxCoeff(), .rounding = 0x1p-49 * largest};
 }
 
-scene::SurfacePoint surface_point(const scene::Facet& facet, std::uint32_t index, const Vec3& direction, double u, double v) {
+scene::SurfacePoint surface_point(const scene::Facet& facet, std::uint32_t index, const Vec3& direction, double u,
+                                  double v) {
   u = std::max(u, 0.0);
   v = std::max(v, 0.0);
   if (const double sum = u + v; sum > 1.0) u /= sum, v /= sum;

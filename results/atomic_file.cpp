@@ -73,7 +73,8 @@ class TemporaryFile {
 }  // namespace
 
 void write_atomically(const std::filesystem::path& file, std::string_view bytes) {
-  if (std::error_code ignored; file.filename().empty() || std::filesystem::is_directory(file, ignored)) fail(file, EISDIR);
+  if (std::error_code ignored; file.filename().empty() || std::filesystem::is_directory(file, ignored))
+    fail(file, EISDIR);
   TemporaryFile temporary(file);
   temporary.write(bytes);
   temporary.keep();

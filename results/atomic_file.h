@@ -5,12 +5,13 @@
 
 namespace interflect::results {
 
-/// Puts `bytes` into a file all at once: written under a temporary name beside it, flushed to the disk, renamed.  Who reads the
-/// file finds the old contents or the new ones; a write that fails leaves the old file and nothing else.
+/// Puts `bytes` into a file all at once: written under a temporary name beside it, flushed to the disk, renamed.  Who
+/// reads the file finds the old contents or the new ones; a write that fails leaves the old file and nothing else.
 /// @throws core::InputError  "out/solution.vtu: cannot be written: No space left on device"
 void write_atomically(const std::filesystem::path& file, std::string_view bytes);
 
-/// Makes the directory with its parents and writes a byte in it, so that hours of work are not spent on what cannot be kept.
+/// Makes the directory with its parents and writes a byte in it, so that hours of work are not spent on what cannot be
+/// kept.
 /// @throws core::InputError  naming the directory
 void prepare_output_directory(const std::filesystem::path& directory);
 

@@ -100,9 +100,13 @@ Record certificate_record(const Certificate& certificate, std::span<const Judged
       .add("surfaces", certificate.surfaces)
       .add("elements", certificate.elements)
       .add("sensors", certificate.sensors);
-  out.section("worst_surface").add("name", certificate.worst_surface).add("relative_difference", certificate.worst_surface_difference);
+  out.section("worst_surface")
+      .add("name", certificate.worst_surface)
+      .add("relative_difference", certificate.worst_surface_difference);
   out.add("judgements", list_of(certificate.judgements, [&](const auto& j) { return judgement(j, judged); }));
-  out.section("energy").add("fem", energy(certificate.fem_energy, n)).add("path_traced", energy(certificate.mc_energy, n));
+  out.section("energy")
+      .add("fem", energy(certificate.fem_energy, n))
+      .add("path_traced", energy(certificate.mc_energy, n));
   out.add("expected", list_of(certificate.expected, expected));
   Record::List all;
   for (std::size_t i = 0; i < judged.size(); ++i)

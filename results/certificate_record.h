@@ -9,7 +9,8 @@
 
 namespace interflect::results {
 
-/// The contents of validation.json (docs/results.md): verdict, norms, what disagrees by name, energy, and every measurement.
+/// The contents of validation.json (docs/results.md): verdict, norms, what disagrees by name, energy, and every
+/// measurement.
 /// @param judged    what the certificate was made from, in the same order
 /// @param channels  their names
 Record certificate_record(const validation::Certificate& certificate, std::span<const validation::Judged> judged,

@@ -8,8 +8,8 @@
 
 namespace interflect::results {
 
-/// Comma-separated text after RFC 4180 (with plain newlines): fields that need quotes get them, numbers have 12 significant digits,
-/// "inf" and "nan" are written so.
+/// Comma-separated text after RFC 4180 (with plain newlines): fields that need quotes get them, numbers have 12
+/// significant digits, "inf" and "nan" are written so.
 class Csv {
  public:
   Csv& text(std::string_view field);

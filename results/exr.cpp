@@ -39,7 +39,8 @@ class MemoryStream final : public Imf::OStream {
 };
 
 std::string exr_name(const std::string& channel) {
-  return channel == "r" || channel == "g" || channel == "b" ? std::string(1, static_cast<char>(channel[0] - 'a' + 'A')) : channel;
+  return channel == "r" || channel == "g" || channel == "b" ? std::string(1, static_cast<char>(channel[0] - 'a' + 'A'))
+                                                            : channel;
 }
 
 /// @param data  where channel `c` of pixel (0, 0) is; EXR wants non-const pointers for writing too
@@ -88,7 +89,8 @@ core::Image read_exr(const std::filesystem::path& file) try {
   const Imath::Box2i window = in.header().dataWindow();
   core::Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, channel_order(in.header()));
   const std::size_t channels = image.channels.size();
-  const Index first = Index{window.min.y} * image.width + window.min.x;  // the frame's pointers are to pixel (0, 0), inside or not
+  const Index first =
+      Index{window.min.y} * image.width + window.min.x;  // the frame's pointers are to pixel (0, 0), inside or not
   float* origin = image.data.data() - first * static_cast<Index>(channels);
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < channels; ++c) frame.insert(image.channels[c], slice(origin, c, channels, image.width));

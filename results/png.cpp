@@ -18,7 +18,8 @@ namespace interflect::results {
 
 std::string png_bytes(const core::Image& display) {
   const auto channels = static_cast<int>(display.channels.size());
-  if (channels != 1 && channels != 3 && channels != 4) throw core::PreconditionError("png: 1, 3 or 4 channels expected");
+  if (channels != 1 && channels != 3 && channels != 4)
+    throw core::PreconditionError("png: 1, 3 or 4 channels expected");
   std::vector<unsigned char> bytes(display.data.size());
   std::transform(display.data.begin(), display.data.end(), bytes.begin(), [](float v) {
     return static_cast<unsigned char>(std::lround(255.0F * (v > 0 ? std::min(v, 1.0F) : 0.0F)));  // NaN is black
@@ -27,11 +28,14 @@ std::string png_bytes(const core::Image& display) {
   const auto append = [](void* out, void* data, int size) {
     static_cast<std::string*>(out)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
   };
-  if (stbi_write_png_to_func(append, &file, display.width, display.height, channels, bytes.data(), display.width * channels) == 0)
+  if (stbi_write_png_to_func(append, &file, display.width, display.height, channels, bytes.data(),
+                             display.width * channels) == 0)
     throw std::bad_alloc();
   return file;
 }
 
-void write_png(const std::filesystem::path& file, const core::Image& display) { write_atomically(file, png_bytes(display)); }
+void write_png(const std::filesystem::path& file, const core::Image& display) {
+  write_atomically(file, png_bytes(display));
+}
 
 }  // namespace interflect::results

@@ -10,7 +10,8 @@
 
 namespace interflect::results {
 
-/// What is known of a run, as an ordered tree of named values: enough to repeat it and to judge it.  Becomes a JSON file.
+/// What is known of a run, as an ordered tree of named values: enough to repeat it and to judge it.  Becomes a JSON
+/// file.
 class Record {
  public:
   struct Entry;
@@ -29,8 +30,7 @@ class Record {
   Record& add(std::string key, List value);
   /// Counts and ids; above 2^63 - 1 (never, in practice) they would wrap.
   template <class Integer>
-    requires std::is_integral_v<Integer>
-  Record& add(std::string key, Integer value) {
+  requires std::is_integral_v<Integer> Record& add(std::string key, Integer value) {
     return add_integer(std::move(key), static_cast<std::int64_t>(value));
   }
   /// The first `channels` numbers of a spectrum.
@@ -52,8 +52,8 @@ struct Record::Entry {
   Value value;
 };
 
-/// JSON text, UTF-8, indented by two.  JSON knows no infinity and no NaN: they become null, and a list "not_finite" at the end of
-/// the text says which they were ("/energy/residual/0: inf").  Numbers read back as the same bits.
+/// JSON text, UTF-8, indented by two.  JSON knows no infinity and no NaN: they become null, and a list "not_finite" at
+/// the end of the text says which they were ("/energy/residual/0: inf").  Numbers read back as the same bits.
 std::string json_text(const Record& record);
 /// @throws core::InputError  see write_atomically
 void write_json(const std::filesystem::path& file, const Record& record);

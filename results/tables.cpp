@@ -6,7 +6,9 @@
 
 namespace interflect::results {
 
-Spectrum error_95(const Estimate& estimate) { return estimate.error_bound + estimate.standard_error * 1.959963984540054; }
+Spectrum error_95(const Estimate& estimate) {
+  return estimate.error_bound + estimate.standard_error * 1.959963984540054;
+}
 
 std::string side_name(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side) {
   return scene.surface(surface).name + (side == scene::Side::back ? "/back" : "");
@@ -36,7 +38,8 @@ std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::Ele
   return rows;
 }
 
-SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side, const Estimate& irradiance) {
+SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side,
+                       const Estimate& irradiance) {
   const scene::Material& material = scene.material(surface);
   const Spectrum rho = material.reflectance_of(side);
   Spectrum error = error_95(irradiance);
@@ -47,7 +50,11 @@ SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scen
 
 std::string surfaces_csv(std::span<const SurfaceRow> rows, int channels) {
   Csv csv;
-  csv.text("name").text("area").headings("radiosity", channels).headings("irradiance", channels).headings("error", channels);
+  csv.text("name")
+      .text("area")
+      .headings("radiosity", channels)
+      .headings("irradiance", channels)
+      .headings("error", channels);
   csv.end_line();
   for (const SurfaceRow& row : rows) {
     csv.text(row.name).number(row.area).numbers(row.radiosity, channels).numbers(row.irradiance, channels);

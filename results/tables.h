@@ -21,7 +21,7 @@ struct SurfaceRow {
   std::string name;  ///< NAME, or NAME/back
   double area;       ///< [m²]
   Spectrum radiosity, irradiance;
-  Spectrum error;    ///< of the radiosity
+  Spectrum error;  ///< of the radiosity
 };
 
 /// "NAME", or "NAME/back" for a back.
@@ -33,7 +33,8 @@ std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::Ele
                                       std::span<const Spectrum> error);
 
 /// A row from an estimate of the mean irradiance of a side: B = E + rho H, and rho times its error.
-SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side, const Estimate& irradiance);
+SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side,
+                       const Estimate& irradiance);
 
 /// `name,area,radiosity_0,..,irradiance_0,..,error_0,..`, a line a row.
 std::string surfaces_csv(std::span<const SurfaceRow> rows, int channels);

@@ -13,7 +13,8 @@ double weighted_quantile(std::span<const double> values, std::span<const double>
   if (order.empty()) return 0;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   const auto weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i]; };
-  const double total = std::accumulate(order.begin(), order.end(), 0.0, [&](double sum, std::size_t i) { return sum + weight(i); });
+  const double total =
+      std::accumulate(order.begin(), order.end(), 0.0, [&](double sum, std::size_t i) { return sum + weight(i); });
   double below = 0;
   for (std::size_t i : order)
     if ((below += weight(i)) >= part * total) return values[i];

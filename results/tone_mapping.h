@@ -11,11 +11,12 @@ struct ToneMapping {
   double white = 0;  ///< radiance shown as white; 0: the 99th percentile of the picture
 };
 
-/// The 99th percentile of the pixels' largest channels; 1 for a picture without light.  Pixels that are not finite are left out.
+/// The 99th percentile of the pixels' largest channels; 1 for a picture without light.  Pixels that are not finite are
+/// left out.
 double white_of(const core::Image& image);
 
-/// The value below which `part` (0 .. 1) of the total weight lies: for exposures and legends.  `weights` may be empty: equal ones.
-/// Values that are not finite are left out; 0 if none is left.
+/// The value below which `part` (0 .. 1) of the total weight lies: for exposures and legends.  `weights` may be empty:
+/// equal ones. Values that are not finite are left out; 0 if none is left.
 double weighted_quantile(std::span<const double> values, std::span<const double> weights, double part);
 
 /// Linear [0, 1] to sRGB [0, 1], clipped: 12.92 x below 0.0031308, 1.055 x^(1/2.4) - 0.055 above.

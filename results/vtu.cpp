@@ -9,7 +9,8 @@
 #include "core/format.h"
 #include "results/atomic_file.h"
 
-static_assert(std::endian::native == std::endian::little, "the .vtu writer writes the machine's own byte order as little-endian");
+static_assert(std::endian::native == std::endian::little,
+              "the .vtu writer writes the machine's own byte order as little-endian");
 
 namespace interflect::results {
 
@@ -44,23 +45,40 @@ Grid grid_of(const mesh::ElementMesh& mesh) {
 template <class T>
 const char* type_name();
 template <>
-const char* type_name<double>() { return "Float64"; }
+const char* type_name<double>() {
+  return "Float64";
+}
 template <>
-const char* type_name<std::int64_t>() { return "Int64"; }
+const char* type_name<std::int64_t>() {
+  return "Int64";
+}
 template <>
-const char* type_name<std::int32_t>() { return "Int32"; }
+const char* type_name<std::int32_t>() {
+  return "Int32";
+}
 template <>
-const char* type_name<std::uint8_t>() { return "UInt8"; }
+const char* type_name<std::uint8_t>() {
+  return "UInt8";
+}
 
 std::string escaped(const std::string& text) {
   std::string out;
   for (char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
   return out;
@@ -70,8 +88,8 @@ std::string escaped(const std::string& text) {
 template <class T>
 void append_array(std::string& out, const std::string& name, const std::vector<T>& values, int components,
                   const std::vector<std::string>& component_names = {}) {
-  out += core::format("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"", type_name<T>(), escaped(name).c_str(),
-                      components);
+  out += core::format("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"", type_name<T>(),
+                      escaped(name).c_str(), components);
   for (std::size_t c = 0; c < component_names.size(); ++c)
     out += core::format(" ComponentName%zu=\"%s\"", c, escaped(component_names[c]).c_str());
   const std::uint64_t size = values.size() * sizeof(T);
@@ -108,7 +126,9 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-CellField scalar_field(std::string name, std::vector<double> values) { return {std::move(name), std::move(values), 1, {}}; }
+CellField scalar_field(std::string name, std::vector<double> values) {
+  return {std::move(name), std::move(values), 1, {}};
+}
 
 CellField spectrum_field(std::string name, std::span<const Spectrum> values, const std::vector<std::string>& channels) {
   std::vector<double> flat;
@@ -126,7 +146,8 @@ std::vector<CellField> id_fields(const mesh::ElementMesh& mesh) {
     surface.push_back(static_cast<std::int32_t>(patch.surface.value));
     side.push_back(patch.side == scene::Side::back ? 1 : 0);
   }
-  return {{"element", std::move(element), 1, {}}, {"surface", std::move(surface), 1, {}}, {"side", std::move(side), 1, {}}};
+  return {
+      {"element", std::move(element), 1, {}}, {"surface", std::move(surface), 1, {}}, {"side", std::move(side), 1, {}}};
 }
 
 std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields) {
@@ -136,7 +157,8 @@ std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> f
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "<UnstructuredGrid>\n";
-  out += core::format("<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n<Points>\n", grid.points.size() / 3, cells);
+  out +=
+      core::format("<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n<Points>\n", grid.points.size() / 3, cells);
   append_array(out, "Points", grid.points, 3);
   out += "</Points>\n<Cells>\n";
   append_array(out, "connectivity", grid.connectivity, 1);

@@ -18,7 +18,7 @@ struct CellField {
   using Values = std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
   std::string name;
-  Values values;                        ///< [element * components + component]
+  Values values;  ///< [element * components + component]
   int components = 1;
   std::vector<std::string> component_names;  ///< empty, or one a component
 };
@@ -29,8 +29,8 @@ CellField spectrum_field(std::string name, std::span<const Spectrum> values, con
 /// element (0 ..), surface (position in the scene) and side (0 front, 1 back).
 std::vector<CellField> id_fields(const mesh::ElementMesh& mesh);
 
-/// A mesh of triangles and quads with cell data as VTK's XML UnstructuredGrid (version 1.0, little-endian, base64), for ParaView and
-/// everything else that reads VTK.  Corners that elements of one side of a surface share are written once.
+/// A mesh of triangles and quads with cell data as VTK's XML UnstructuredGrid (version 1.0, little-endian, base64), for
+/// ParaView and everything else that reads VTK.  Corners that elements of one side of a surface share are written once.
 /// @throws core::PreconditionError  if a field's size is not elements x components
 std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields);
 void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields);

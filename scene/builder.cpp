@@ -40,7 +40,8 @@ MaterialId SceneBuilder::add_material(Material material) {
   return MaterialId{static_cast<std::uint32_t>(scene_.materials.size() - 1)};
 }
 
-SurfaceId SceneBuilder::add_polygon(const std::string& name, const geometry::PlanarPolygon& polygon, MaterialId material) {
+SurfaceId SceneBuilder::add_polygon(const std::string& name, const geometry::PlanarPolygon& polygon,
+                                    MaterialId material) {
   const auto triangles = geometry::triangulate(polygon);
   const SurfaceId id{static_cast<std::uint32_t>(scene_.surfaces.size())};
   scene_.surfaces.push_back({name, material, static_cast<std::uint32_t>(scene_.facets.size()),
@@ -54,7 +55,8 @@ SurfaceId SceneBuilder::add_polygon(const std::string& name, const geometry::Pla
   return id;
 }
 
-SurfaceId SceneBuilder::add_facets(const std::string& name, std::span<const geometry::TriangleCorners> triangles, MaterialId material) {
+SurfaceId SceneBuilder::add_facets(const std::string& name, std::span<const geometry::TriangleCorners> triangles,
+                                   MaterialId material) {
   const SurfaceId id{static_cast<std::uint32_t>(scene_.surfaces.size())};
   const auto first = static_cast<std::uint32_t>(scene_.facets.size());
   for (const auto& corners : triangles) {
@@ -101,7 +103,8 @@ Scene SceneBuilder::finish() {
   for (Surface& surface : scene_.surfaces) {
     const std::string stem = surface.name.empty() ? "surface" : surface.name;
     std::string name = stem;
-    for (int k = 2; used.contains(name) || (name != surface.name && taken.contains(name)); ++k) name = stem + "-" + std::to_string(k);
+    for (int k = 2; used.contains(name) || (name != surface.name && taken.contains(name)); ++k)
+      name = stem + "-" + std::to_string(k);
     used.insert(name);
     surface.name = std::move(name);
   }

@@ -23,7 +23,8 @@ class SceneBuilder {
   /// @throws geometry::Defect  if it is not a planar polygon with an area
   SurfaceId add_polygon(const std::string& name, const geometry::PlanarPolygon& polygon, MaterialId material);
   /// Triangles of a mesh as one surface; none may be degenerate.
-  SurfaceId add_facets(const std::string& name, std::span<const geometry::TriangleCorners> triangles, MaterialId material);
+  SurfaceId add_facets(const std::string& name, std::span<const geometry::TriangleCorners> triangles,
+                       MaterialId material);
   /// Six surfaces NAME/x-, NAME/x+, .. NAME/z+.
   /// @param place  moves each corner, keeping orientation; nothing: they stay
   void add_box(const std::string& name, const geometry::Box& box, MaterialId material, Facing facing = Facing::outward,

@@ -14,10 +14,14 @@ bool Inspection::closed() const {
 
 std::string describe(Kind kind) {
   switch (kind) {
-    case Kind::gap: return "open edge";
-    case Kind::inconsistent_normals: return "neighbours face opposite ways";
-    case Kind::duplicate_faces: return "duplicate faces";
-    case Kind::coplanar_overlap: return "coplanar faces overlap";
+    case Kind::gap:
+      return "open edge";
+    case Kind::inconsistent_normals:
+      return "neighbours face opposite ways";
+    case Kind::duplicate_faces:
+      return "duplicate faces";
+    case Kind::coplanar_overlap:
+      return "coplanar faces overlap";
   }
   return "";
 }
@@ -28,9 +32,8 @@ Inspection inspect(const Scene& scene) {
   const double tolerance = 1e-6 * scene.box().diagonal().norm();
   find_edge_faults(scene, tolerance, inspection);
   find_coplanar_faces(scene, tolerance, inspection);
-  std::stable_sort(inspection.findings.begin(), inspection.findings.end(), [](const auto& a, const auto& b) {
-    return a.kind != b.kind ? a.kind < b.kind : a.size > b.size;
-  });
+  std::stable_sort(inspection.findings.begin(), inspection.findings.end(),
+                   [](const auto& a, const auto& b) { return a.kind != b.kind ? a.kind < b.kind : a.size > b.size; });
   return inspection;
 }
 

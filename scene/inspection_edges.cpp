@@ -36,8 +36,8 @@ class EdgeInspection {
   void run() {
     for (std::size_t i = 0; i < edges_.size(); ++i) judge(edges_[i], covers_of(i));
     for (const auto& [pair, fault] : opposed_)
-      inspection_.findings.push_back({Inspection::Finding::Kind::inconsistent_normals, name(pair.first), name(pair.second),
-                                      fault.where, fault.length});
+      inspection_.findings.push_back({Inspection::Finding::Kind::inconsistent_normals, name(pair.first),
+                                      name(pair.second), fault.where, fault.length});
   }
 
  private:

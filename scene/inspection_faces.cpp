@@ -61,8 +61,10 @@ void find_coplanar_faces(const Scene& scene, double tolerance, Inspection& inspe
   }
   for (const auto& [pair, s] : shared) {
     const double larger = std::max(scene.area(SurfaceId{pair.first}), scene.area(SurfaceId{pair.second}));
-    const bool duplicate = s.duplicated >= (1 - 1e-6) * s.area || (pair.first != pair.second && s.area >= (1 - 1e-6) * larger);
-    inspection.findings.push_back({duplicate ? Kind::duplicate_faces : Kind::coplanar_overlap, scene.surfaces[pair.first].name,
+    const bool duplicate =
+        s.duplicated >= (1 - 1e-6) * s.area || (pair.first != pair.second && s.area >= (1 - 1e-6) * larger);
+    inspection.findings.push_back({duplicate ? Kind::duplicate_faces : Kind::coplanar_overlap,
+                                   scene.surfaces[pair.first].name,
                                    pair.first == pair.second ? "" : scene.surfaces[pair.second].name, s.where, s.area});
   }
 }

@@ -15,10 +15,11 @@ void require_format(const io::JsonNode& root) {
   if (!root.is_object()) root.fail("a scene is a JSON object");
   for (const char* key : {"luminaires", "photometry", "sky"})
     if (root.has(key)) root.at(key).fail(std::string("this version does not know \"") + key + "\"");
-  root.only({"$schema", "format", "units", "up", "quantity", "channels", "weights", "north_deg", "materials", "geometry", "sensors",
-             "cameras", "expected"});
+  root.only({"$schema", "format", "units", "up", "quantity", "channels", "weights", "north_deg", "materials",
+             "geometry", "sensors", "cameras", "expected"});
   if (root.at("format").string() != "interflect/scene/1")
-    root.at("format").fail("\"interflect/scene/1\" is expected, not \"" + io::shown_word(root.at("format").string()) + "\"");
+    root.at("format").fail("\"interflect/scene/1\" is expected, not \"" + io::shown_word(root.at("format").string()) +
+                           "\"");
 }
 
 void read_weights(const io::JsonNode& node, Scene& scene) {
@@ -41,8 +42,10 @@ void warn_of_oddities(Scene& scene, const std::string& name) {
   const Vec3 size = scene.box().sizes();
   const auto odd = [](double length) { return length > 0 && (length < 0.1 || length > 1000); };
   if (odd(size.x()) || odd(size.y()) || odd(size.z()))
-    scene.warnings.push_back({name, core::format("the scene measures %.4g x %.4g x %.4g m: a side outside 0.1 m .. 1 km; are its "
-                                                 "\"units\" right?", size.x(), size.y(), size.z())});
+    scene.warnings.push_back(
+        {name, core::format("the scene measures %.4g x %.4g x %.4g m: a side outside 0.1 m .. 1 km; are its "
+                            "\"units\" right?",
+                            size.x(), size.y(), size.z())});
   if (scene.emitted_flux().is_zero()) scene.warnings.push_back({name, "nothing emits: everything will be dark"});
 }
 
@@ -54,7 +57,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   require_format(root);
   const io::LengthUnit unit = io::read_unit(root.at("units"));
   Quantity quantity = Quantity::photometric;
-  if (root.has("quantity") && root.at("quantity").one_of({"photometric", "radiometric"}) == 1) quantity = Quantity::radiometric;
+  if (root.has("quantity") && root.at("quantity").one_of({"photometric", "radiometric"}) == 1)
+    quantity = Quantity::radiometric;
 
   SceneBuilder builder(io::read_channels(root), quantity);
   read_conventions(root, builder.scene());

@@ -29,7 +29,7 @@ struct Surface {
   std::string name;  ///< unique in the scene
   MaterialId material;
   std::uint32_t first_facet = 0, facets = 0;
-  std::optional<geometry::PlanarPolygon> outline;  ///< where the surface is one planar polygon: elements may ignore its facets
+  std::optional<geometry::PlanarPolygon> outline;  ///< where it is one planar polygon: elements may ignore its facets
 };
 
 /// A repair or a finding of the reader, counted; nothing is repaired silently.
@@ -45,7 +45,7 @@ struct Scene {
   Vec3 up = Vec3::UnitZ();
   double north_deg = 0;
   std::vector<std::string> channels;  ///< their names; 1 .. Spectrum::capacity
-  Spectrum weights;                   ///< one number from a spectrum (lx, or W/m²): sum_c weights[c] value[c]; 0 beyond the channels
+  Spectrum weights;  ///< one number from a spectrum (lx, or W/m²): sum_c weights[c] value[c]; 0 beyond the channels
   std::vector<Material> materials;
   std::vector<Surface> surfaces;
   std::vector<Facet> facets;
@@ -64,10 +64,10 @@ struct Scene {
   std::vector<SurfaceId> surface_ids() const;
   std::optional<CameraId> find_camera(const std::string& name) const;
 
-  double area(SurfaceId id) const;  ///< of one side [m²]
-  geometry::Box box() const;        ///< of all facets [m]
+  double area(SurfaceId id) const;        ///< of one side [m²]
+  geometry::Box box() const;              ///< of all facets [m]
   double weigh(const Spectrum& s) const;  ///< sum_c weights[c] s[c]
-  Spectrum emitted_flux() const;    ///< sum of A E over the surfaces [W | lm]
+  Spectrum emitted_flux() const;          ///< sum of A E over the surfaces [W | lm]
   const char* irradiance_unit() const { return quantity == Quantity::photometric ? "lx" : "W/m2"; }
   const char* flux_unit() const { return quantity == Quantity::photometric ? "lm" : "W"; }
 

@@ -11,9 +11,9 @@ namespace interflect::scene {
 
 /// A parallelogram of points at cell centres; `measure/sensor_points.h` says how many.
 struct SensorGrid {
-  Vec3 origin, u, v;                         ///< corner and sides [m]
+  Vec3 origin, u, v;                          ///< corner and sides [m]
   std::variant<double, Eigen::Array2i> step;  ///< spacing [m], or counts along u and v; NaN spacing: by EN 12464-1
-  double exclude_border = 0;                 ///< strip left out along all four sides [m]
+  double exclude_border = 0;                  ///< strip left out along all four sides [m]
 };
 
 /// Irradiance (illuminance) is asked at these points, for the hemisphere of `normal`.

@@ -52,20 +52,22 @@ bool breaks_a_guarantee(std::span<const Judged> judged, const Comparison& compar
                      [&](std::size_t i) { return judged[i].fem.claim == Claim::guaranteed; });
 }
 
-void give_reasons(std::span<const Judged> judged, const Judgement& j, const Settings& settings, std::vector<std::string>& out) {
+void give_reasons(std::span<const Judged> judged, const Judgement& j, const Settings& settings,
+                  std::vector<std::string>& out) {
   const Comparison& c = j.comparison;
   const char* name = j.reading.name.c_str();
   if (!c.unknown.empty())
     out.push_back(format("%s: %zu of %zu measurements lack a finite error bound or standard error (%s first)", name,
                          c.unknown.size(), judged.size(), judged[c.unknown.front()].name.c_str()));
   if (c.share < settings.share)
-    out.push_back(format("%s: %zu of %zu measurements differ by more than error bound + 3 standard errors (%s most)", name,
-                         c.disagreeing.size(), judged.size(), judged[c.disagreeing.front()].name.c_str()));
+    out.push_back(format("%s: %zu of %zu measurements differ by more than error bound + 3 standard errors (%s most)",
+                         name, c.disagreeing.size(), judged.size(), judged[c.disagreeing.front()].name.c_str()));
   if (c.drifts())
-    out.push_back(format("%s: the mean of z is %+.3f, where error bounds and chance explain %.3f: FEM is %s everywhere", name,
-                         c.mean_z, c.mean_z_limit, c.mean_z > 0 ? "too bright" : "too dark"));
+    out.push_back(format("%s: the mean of z is %+.3f, where error bounds and chance explain %.3f: FEM is %s everywhere",
+                         name, c.mean_z, c.mean_z_limit, c.mean_z > 0 ? "too bright" : "too dark"));
   if (breaks_a_guarantee(judged, c))
-    out.push_back(format("%s: a guaranteed error bound is broken at %s", name, judged[c.beyond_chance.front()].name.c_str()));
+    out.push_back(
+        format("%s: a guaranteed error bound is broken at %s", name, judged[c.beyond_chance.front()].name.c_str()));
 }
 
 void give_remarks(std::span<const Judged> judged, const Judgement& j, double alpha, std::vector<std::string>& out) {
@@ -89,7 +91,8 @@ void check_energy(const scene::Scene& scene, Certificate& certificate) {
   const double se = std::hypot(reading.error(certificate.fem_energy.standard_error),
                                reading.error(certificate.mc_energy.standard_error));
   if (emitted > 0 && std::abs(off) > 0.01 * emitted + 3 * se)
-    certificate.remarks.push_back(format("the absorbed flux differs by %s of the emitted flux", percent(off / emitted).c_str()));
+    certificate.remarks.push_back(
+        format("the absorbed flux differs by %s of the emitted flux", percent(off / emitted).c_str()));
 }
 
 std::string verdict_of(const Certificate& certificate) {
@@ -102,8 +105,8 @@ std::string verdict_of(const Certificate& certificate) {
 
 }  // namespace
 
-EnergyBalance sampled_energy(const Spectrum& emitted, std::span<const double> areas, std::span<const Spectrum> reflectances,
-                             std::span<const Estimate> irradiance) {
+EnergyBalance sampled_energy(const Spectrum& emitted, std::span<const double> areas,
+                             std::span<const Spectrum> reflectances, std::span<const Estimate> irradiance) {
   if (areas.size() != irradiance.size() || reflectances.size() != irradiance.size())
     throw core::PreconditionError("sampled_energy: one area and reflectance per irradiance expected");
   EnergyBalance balance;
@@ -128,7 +131,8 @@ Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, c
   certificate.fem_energy = fem;
   certificate.mc_energy = mc;
   const auto number_of = [&](Judged::Kind kind) {
-    return static_cast<std::size_t>(std::count_if(judged.begin(), judged.end(), [=](const Judged& j) { return is(j, kind); }));
+    return static_cast<std::size_t>(
+        std::count_if(judged.begin(), judged.end(), [=](const Judged& j) { return is(j, kind); }));
   };
   certificate.surfaces = number_of(Judged::Kind::surface);
   certificate.elements = number_of(Judged::Kind::element);
@@ -143,10 +147,12 @@ Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, c
     give_remarks(judged, j, settings.alpha, certificate.remarks);
   }
   const Norms& norms = certificate.judgements.front().norms();
-  if (norms.measurements == 0) certificate.reasons.insert(certificate.reasons.begin(), "no surface and no element was judged");
+  if (norms.measurements == 0)
+    certificate.reasons.insert(certificate.reasons.begin(), "no surface and no element was judged");
   if (norms.reference_error > settings.accuracy)
-    certificate.reasons.push_back(format("the reference is too noisy to judge by: its 95 %% error is %s, and %s was asked for",
-                                         percent(norms.reference_error).c_str(), percent(settings.accuracy).c_str()));
+    certificate.reasons.push_back(
+        format("the reference is too noisy to judge by: its 95 %% error is %s, and %s was asked for",
+               percent(norms.reference_error).c_str(), percent(settings.accuracy).c_str()));
   find_worst_surface(judged, certificate);
   check_energy(scene, certificate);
   certificate.expected = check_expected(scene, judged);

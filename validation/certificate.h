@@ -29,8 +29,8 @@ struct EnergyBalance {
 
 /// The balance of a sampled method: its surfaces' fluxes are independent, and what is not absorbed is lost.
 /// @param areas, reflectances  of the sides of surfaces in `irradiance`
-EnergyBalance sampled_energy(const Spectrum& emitted, std::span<const double> areas, std::span<const Spectrum> reflectances,
-                             std::span<const Estimate> irradiance);
+EnergyBalance sampled_energy(const Spectrum& emitted, std::span<const double> areas,
+                             std::span<const Spectrum> reflectances, std::span<const Estimate> irradiance);
 
 /// All that was found in one reading.
 struct Judgement {
@@ -48,19 +48,19 @@ struct Certificate {
   std::vector<std::string> reasons;  ///< why it did not pass; empty if it did
   std::vector<std::string> remarks;  ///< what else a reader should know
   Settings settings;
-  std::string unit;                        ///< "lx" or "W/m2"
+  std::string unit;                                     ///< "lx" or "W/m2"
   std::size_t surfaces = 0, elements = 0, sensors = 0;  ///< measurements of each kind
-  std::size_t comparisons = 0;             ///< among which alpha is divided: every measurement and one mean, per reading
-  std::vector<Judgement> judgements;       ///< the weighted value first, then the channels
-  std::string worst_surface;               ///< the surface whose weighted H differs most
-  double worst_surface_difference = 0;     ///< (FEM - MC) / MC there
+  std::size_t comparisons = 0;          ///< among which alpha is divided: every measurement and one mean, per reading
+  std::vector<Judgement> judgements;    ///< the weighted value first, then the channels
+  std::string worst_surface;            ///< the surface whose weighted H differs most
+  double worst_surface_difference = 0;  ///< (FEM - MC) / MC there
   EnergyBalance fem_energy, mc_energy;
   std::vector<ExpectedCheck> expected;
 };
 
-/// Passes when, in the weighted value and in every channel, at least `share` of the measurements agree and the mean of z does not
-/// drift; when no *guaranteed* bound is broken beyond chance; when the reference is as accurate as asked; and when the
-/// scene's own expectations hold.  Single differences beyond chance of *estimated* bounds are remarks.
+/// Passes when, in the weighted value and in every channel, at least `share` of the measurements agree and the mean of
+/// z does not drift; when no *guaranteed* bound is broken beyond chance; when the reference is as accurate as asked;
+/// and when the scene's own expectations hold.  Single differences beyond chance of *estimated* bounds are remarks.
 Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, const EnergyBalance& fem,
                     const EnergyBalance& mc, const Settings& settings);
 

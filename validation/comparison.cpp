@@ -67,8 +67,7 @@ Comparison compare(std::span<const Judged> judged, const Reading& reading, doubl
     drift.add(d, reading.error(judged[i].fem.standard_error), reading.error(judged[i].mc.standard_error));
     ++all.noisy;
   }
-  if (!judged.empty())
-    all.share = 1 - static_cast<double>(all.disagreeing.size()) / static_cast<double>(judged.size());
+  if (!judged.empty()) all.share = 1 - static_cast<double>(all.disagreeing.size()) / static_cast<double>(judged.size());
   if (const auto n = static_cast<double>(all.noisy); all.noisy > 0) {
     all.mean_z = drift.z / n;
     all.mean_z_square = drift.z_square / n;

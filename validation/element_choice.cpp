@@ -85,7 +85,8 @@ void draw_elements(const Stratum& s, std::span<const double> areas, double u, st
 
 std::vector<ChosenElement> choose_elements(std::span<const double> areas, std::span<const std::uint32_t> surface_of,
                                            std::size_t count, std::uint64_t seed) {
-  if (areas.size() != surface_of.size()) throw core::PreconditionError("choose_elements: one surface per element expected");
+  if (areas.size() != surface_of.size())
+    throw core::PreconditionError("choose_elements: one surface per element expected");
   std::vector<ChosenElement> chosen;
   if (count >= areas.size()) {
     for (std::size_t i = 0; i < areas.size(); ++i) chosen.push_back({static_cast<std::int64_t>(i), areas[i]});

@@ -12,9 +12,12 @@ using Statistic = scene::Expected::Statistic;
 
 const char* describe(Statistic statistic) {
   switch (statistic) {
-    case Statistic::mean: return "mean";
-    case Statistic::min: return "min";
-    case Statistic::max: return "max";
+    case Statistic::mean:
+      return "mean";
+    case Statistic::min:
+      return "min";
+    case Statistic::max:
+      return "max";
   }
   return "";
 }

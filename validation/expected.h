@@ -20,8 +20,8 @@ struct ExpectedCheck {
   bool passed() const { return fem_agrees && mc_agrees; }
 };
 
-/// The scene's list against the points of its sensors among `judged` (group = the sensor's name), in the weighted value.
-/// A sensor without any point is a check that fails, with NaN for its values.
+/// The scene's list against the points of its sensors among `judged` (group = the sensor's name), in the weighted
+/// value. A sensor without any point is a check that fails, with NaN for its values.
 std::vector<ExpectedCheck> check_expected(const scene::Scene& scene, std::span<const Judged> judged);
 
 }  // namespace interflect::validation

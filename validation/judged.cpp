@@ -30,9 +30,12 @@ std::vector<Reading> readings_of(const scene::Scene& scene) {
 
 const char* describe(Judged::Kind kind) {
   switch (kind) {
-    case Judged::Kind::surface: return "surface";
-    case Judged::Kind::element: return "element";
-    case Judged::Kind::sensor: return "sensor";
+    case Judged::Kind::surface:
+      return "surface";
+    case Judged::Kind::element:
+      return "element";
+    case Judged::Kind::sensor:
+      return "sensor";
   }
   return "";
 }

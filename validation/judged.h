@@ -27,8 +27,8 @@ struct Judged {
 
 /// One number from a spectrum, sum_c weights[c] value[c]: what is compared.
 ///
-/// Errors follow by the triangle inequality, sum_c |weights[c]| error[c]: exact for one channel and for channels that are fully
-/// correlated (paths carry all channels at once), else an upper bound.
+/// Errors follow by the triangle inequality, sum_c |weights[c]| error[c]: exact for one channel and for channels that
+/// are fully correlated (paths carry all channels at once), else an upper bound.
 struct Reading {
   std::string name;
   Spectrum weights;

@@ -18,10 +18,10 @@ const double z_95 = 1.959963984540054;  // Phi^-1(0.975)
 
 struct Term {
   const Judged* judged;
-  double a;                  ///< area represented
-  double d, H;               ///< FEM - MC, MC
+  double a;     ///< area represented
+  double d, H;  ///< FEM - MC, MC
   double se, se_mc, bound;
-  double square() const { return d * d - se * se; }                          ///< unbiased for (FEM - H)²
+  double square() const { return d * d - se * se; }                               ///< unbiased for (FEM - H)²
   double noise_of_square() const { return se * se * (4 * d * d - 2 * se * se); }  ///< unbiased for its variance
 };
 
@@ -125,13 +125,15 @@ Interval maximum_norm(const std::vector<Term>& terms, double mean, std::string& 
 
 }  // namespace
 
-Norms error_norms(std::span<const Judged> judged, const Reading& reading, const std::function<bool(const Judged&)>& counts) {
+Norms error_norms(std::span<const Judged> judged, const Reading& reading,
+                  const std::function<bool(const Judged&)>& counts) {
   const std::vector<Term> terms = terms_of(judged, reading, counts);
   Norms norms;
   norms.measurements = terms.size();
   if (terms.empty()) return norms;
   const double light = total(terms, [](const Term& t) { return t.a * std::abs(t.H); });
-  const double square = std::max(0.0, total(terms, [](const Term& t) { return t.a * (t.H * t.H - t.se_mc * t.se_mc); }));
+  const double square =
+      std::max(0.0, total(terms, [](const Term& t) { return t.a * (t.H * t.H - t.se_mc * t.se_mc); }));
   norms.area = total(terms, [](const Term& t) { return t.a; });
   norms.mean_irradiance = ratio(total(terms, [](const Term& t) { return t.a * t.H; }), norms.area);
   norms.l1 = l1_norm(terms, light);

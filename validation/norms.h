@@ -17,16 +17,20 @@ struct Interval {
 ///
 /// With d_j = FEM_j - MC_j of combined standard error se_j, a_j the area that j stands for, H_j the truth:
 ///
-///   L2²  = sum_j a_j (d_j² - se_j²) / sum_j a_j (MC_j² - se_mc,j²)          unbiased above and below: E[d²] = (FEM - H)² + se²
-///   L1   = sum_j a_j |d_j| / sum_j a_j |MC_j|  times  sqrt( sum a (d² - se²) / sum a d² )
-///   max  = max_j |d_j| / (sum_j a_j |MC_j| / sum_j a_j)                      of the measurements themselves, noise included
+///   L2² = sum_j a_j (d_j² - se_j²) / sum_j a_j (MC_j² - se_mc,j²)
+///   L1  = sum_j a_j |d_j| / sum_j a_j |MC_j|  sqrt( sum a (d² - se²) / sum a d² )
+///   max = max_j |d_j| / (sum_j a_j |MC_j| / sum_j a_j)
 ///
-/// Intervals: L2 by the delta method, Var(d²) = 4 (FEM - H)² se² + 2 se⁴, estimated without bias by 4 d² se² - 2 se⁴.  No estimator
-/// of L1 is unbiased (|x| has a kink): its factor is right where errors are normally distributed, and its interval is safe,
-/// from sum a (|d| - se sqrt(2/pi)) to sum a |d|, each 1.96 standard errors further out.  max: the largest of simultaneous
-/// intervals (Sidak).  Where elements were chosen, the variance of the choice inside each group is added, (1 - f) n / (n - 1)
-/// sum a² (y - mean y)² less its part of noise; groups with one chosen element are taken together.  The noise of the
-/// denominators is neglected: it changes an interval by a part (relative error of the norm) of itself.
+/// L2² is unbiased above and below, since E[d²] = (FEM - H)² + se².  The maximum is of the judged measurements alone,
+/// noise included.
+///
+/// Intervals: L2 by the delta method, Var(d²) = 4 (FEM - H)² se² + 2 se⁴, estimated without bias by 4 d² se² - 2 se⁴.
+/// No estimator of L1 is unbiased (|x| has a kink): its factor is right where errors are normally distributed, and its
+/// interval is safe, from sum a (|d| - se sqrt(2/pi)) to sum a |d|, each 1.96 standard errors further out.  max: the
+/// largest of simultaneous intervals (Sidak).  Where elements were chosen, the variance of the choice inside each group
+/// is added, (1 - f) n / (n - 1) sum a² (y - mean y)² less its part of noise; groups with one chosen element are taken
+/// together.  The noise of the denominators is neglected: it changes an interval by a part (relative error of the norm)
+/// of itself.
 struct Norms {
   std::size_t measurements = 0;
   double area = 0;             ///< represented [m²]
@@ -37,8 +41,9 @@ struct Norms {
   double claimed_error = 0;    ///< FEM's error bounds in the norm L2
 };
 
-/// Over the measurements that `counts` and whose numbers are finite.  Without any light the relative norms are 0 where both
-/// methods agree on it, else infinite.
-Norms error_norms(std::span<const Judged> judged, const Reading& reading, const std::function<bool(const Judged&)>& counts);
+/// Over the measurements that `counts` and whose numbers are finite.  Without any light the relative norms are 0 where
+/// both methods agree on it, else infinite.
+Norms error_norms(std::span<const Judged> judged, const Reading& reading,
+                  const std::function<bool(const Judged&)>& counts);
 
 }  // namespace interflect::validation

@@ -10,19 +10,24 @@ namespace {
 
 constexpr Colour plasma[] = {{13, 8, 135},   {76, 2, 161},   {126, 3, 168},  {170, 35, 149}, {204, 71, 120},
                              {230, 108, 92}, {248, 149, 64}, {253, 197, 39}, {240, 249, 33}};
-constexpr Colour viridis[] = {{68, 1, 84},    {71, 45, 123},  {59, 82, 139},  {44, 114, 142}, {33, 145, 140},
-                              {40, 174, 128}, {94, 201, 98},  {173, 220, 48}, {253, 231, 37}};
-constexpr Colour inferno[] = {{0, 0, 4},     {33, 12, 74},   {87, 16, 110},  {138, 34, 106}, {188, 55, 84},
-                              {228, 90, 49}, {249, 142, 9},  {249, 203, 53}, {252, 255, 164}};
-constexpr Colour blue_white_red[] = {{33, 60, 160},   {68, 112, 208},  {130, 171, 234}, {196, 217, 244}, {247, 247, 247},
-                                     {247, 208, 190}, {234, 146, 120}, {204, 76, 66},   {152, 12, 40}};
+constexpr Colour viridis[] = {{68, 1, 84},    {71, 45, 123}, {59, 82, 139},  {44, 114, 142}, {33, 145, 140},
+                              {40, 174, 128}, {94, 201, 98}, {173, 220, 48}, {253, 231, 37}};
+constexpr Colour inferno[] = {{0, 0, 4},     {33, 12, 74},  {87, 16, 110},  {138, 34, 106}, {188, 55, 84},
+                              {228, 90, 49}, {249, 142, 9}, {249, 203, 53}, {252, 255, 164}};
+constexpr Colour blue_white_red[] = {{33, 60, 160},   {68, 112, 208},  {130, 171, 234},
+                                     {196, 217, 244}, {247, 247, 247}, {247, 208, 190},
+                                     {234, 146, 120}, {204, 76, 66},   {152, 12, 40}};
 
 std::span<const Colour> points_of(ColourMap map) {
   switch (map) {
-    case ColourMap::plasma: return plasma;
-    case ColourMap::viridis: return viridis;
-    case ColourMap::inferno: return inferno;
-    case ColourMap::blue_white_red: return blue_white_red;
+    case ColourMap::plasma:
+      return plasma;
+    case ColourMap::viridis:
+      return viridis;
+    case ColourMap::inferno:
+      return inferno;
+    case ColourMap::blue_white_red:
+      return blue_white_red;
   }
   return plasma;
 }

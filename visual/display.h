@@ -8,9 +8,11 @@ namespace interflect::visual {
 
 class XServer;
 
-/// What pictures are drawn on: the display of the environment where it answers, else a virtual one of our own (see XServer).
+/// What pictures are drawn on: the display of the environment where it answers, else a virtual one of our own (see
+/// XServer).
 ///
-/// While it exists, DISPLAY names it, because that is where VTK looks: make it when no other thread reads the environment.
+/// While it exists, DISPLAY names it, because that is where VTK looks: make it when no other thread reads the
+/// environment.
 class Display {
  public:
   /// @throws core::InputError  if there is none and none can be made

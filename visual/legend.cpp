@@ -15,7 +15,8 @@ constexpr Colour ink{45, 45, 45}, faint{150, 150, 150};
 void fill(core::Image& picture, int left, int top, int width, int height, Colour colour) {
   for (int y = std::max(0, top); y < std::min(picture.height, top + height); ++y)
     for (int x = std::max(0, left); x < std::min(picture.width, left + width); ++x)
-      for (int c = 0; c < 3; ++c) picture.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]) / 255.0F;
+      for (int c = 0; c < 3; ++c)
+        picture.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]) / 255.0F;
 }
 
 /// Everything of a legend that has a size before it has a place.
@@ -50,8 +51,7 @@ Measured measured(const Legend& legend, int size) {
 void draw_bar(core::Image& canvas, const Legend& legend, const Measured& m, int left, int top, int height, int size) {
   const int line = std::max(1, size / 16);
   fill(canvas, left - line, top - line, m.bar + 2 * line, height + 2 * line, faint);
-  for (int y = 0; y < height; ++y)
-    fill(canvas, left, top + y, m.bar, 1, colour_of(legend.map, 1 - (y + 0.5) / height));
+  for (int y = 0; y < height; ++y) fill(canvas, left, top + y, m.bar, 1, colour_of(legend.map, 1 - (y + 0.5) / height));
   for (const Measured::Tick& tick : m.ticks) {
     const int y = top + static_cast<int>(std::lround((1 - tick.part) * (height - 1)));
     fill(canvas, left + m.bar, y - line / 2, size / 3, line, faint);
@@ -72,7 +72,8 @@ core::Image framed(const core::Image& picture, const std::string& caption, const
   core::Image canvas(margin + picture.width + strip + margin, head + picture.height + margin, {"R", "G", "B"});
   std::fill(canvas.data.begin(), canvas.data.end(), 1.0F);
   for (int y = 0; y < picture.height; ++y)
-    std::copy_n(picture.data.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)), picture.offset(picture.width, 0),
+    std::copy_n(picture.data.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)),
+                picture.offset(picture.width, 0),
                 canvas.data.begin() + static_cast<std::ptrdiff_t>(canvas.offset(margin, head + y)));
   draw_text(canvas, title, margin, margin + size + size / 8, ink);
   if (legend != nullptr) {

@@ -17,8 +17,8 @@ struct Legend {
   bool open_below = false;
 };
 
-/// The picture with a white margin, a caption over it (if not empty) and a legend at its right.  The picture itself keeps its
-/// pixels; `left` and `top` say where it went, if asked.
+/// The picture with a white margin, a caption over it (if not empty) and a legend at its right.  The picture itself
+/// keeps its pixels; `left` and `top` say where it went, if asked.
 core::Image framed(const core::Image& picture, const std::string& caption, const Legend* legend, int* left = nullptr,
                    int* top = nullptr);
 

@@ -40,8 +40,8 @@ std::string with_squares(std::string text) {
 }
 
 /// Where one looks from, and what is behind everything.
-void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh& mesh, const std::optional<scene::Camera>& camera,
-              int width, int height, Colour backs, Colour behind) {
+void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+              const std::optional<scene::Camera>& camera, int width, int height, Colour backs, Colour behind) {
   raster.camera = camera ? *camera : outside_view(scene, width, height);
   raster.background = camera ? behind : white;
   if (camera) append(raster.fronts, black_backs(scene, mesh, backs));

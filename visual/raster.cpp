@@ -17,7 +17,6 @@
 
 #include "core/error.h"
 #include "core/format.h"
-#include "geometry/box.h"
 
 namespace interflect::visual {
 
@@ -31,7 +30,8 @@ struct Frame {
 };
 
 Frame frame_of(const Raster& raster) {
-  const geometry::Box box = geometry::box_of(raster.fronts.corners);
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : raster.fronts.corners) box.extend(p);
   return {0.5 * (box.min() + box.max()), 1 / std::max(box.diagonal().norm(), 1e-300)};
 }
 

@@ -9,8 +9,8 @@ namespace interflect::visual {
 
 /// What stands before a camera, drawn without light: colours are what they are.
 struct Raster {
-  Polygons fronts;       ///< seen from the side around which their corners run counter-clockwise
-  bool edges = false;    ///< drawn over them, a quarter dark
+  Polygons fronts;     ///< seen from the side around which their corners run counter-clockwise
+  bool edges = false;  ///< drawn over them, a quarter dark
   Colour background{255, 255, 255};
   scene::Camera camera;  ///< pixels as in scene::Camera
 };

@@ -32,7 +32,8 @@ std::vector<double> ticks_of(const Range& range) {
     const double candidate = factor * ten;
     if (span / candidate < 4 - 1e-9) break;
     step = candidate;
-    if (whole(range.low / candidate) && whole(range.high / candidate) && span / candidate <= 12 + 1e-9) even_step = candidate;
+    if (whole(range.low / candidate) && whole(range.high / candidate) && span / candidate <= 12 + 1e-9)
+      even_step = candidate;
   }
   if (even_step > 0) step = even_step;
   std::vector<double> ticks;
@@ -46,8 +47,9 @@ std::string tick_label(double value, double step) {
   const double largest = std::abs(value);
   if (largest >= 1e6 || step < 1e-4) return core::format("%.3g", value);
   if (step >= 1 && std::abs(value - std::round(value)) < 1e-6 * step) {
-    const std::string digits = largest < 9999.5 ? core::format("%.0f", largest)
-                                                : core::format_count(static_cast<unsigned long long>(std::lround(largest)));
+    const std::string digits = largest < 9999.5
+                                   ? core::format("%.0f", largest)
+                                   : core::format_count(static_cast<unsigned long long>(std::lround(largest)));
     return (value < 0 ? "-" : "") + digits;
   }
   const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(step))));

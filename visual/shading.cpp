@@ -30,7 +30,12 @@ class Fits {
   Fits(const mesh::ElementMesh& mesh, const mesh::ElementMesh::Part& part, std::span<const Rgb> values) {
     for (std::uint32_t e = 0; e < part.count; ++e) {
       const scene::SurfacePatch& patch = mesh.patches()[part.first + e];
-      planes_.push_back({patch.centroid(), patch.normal(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, values[part.first + e], {}, {}});
+      planes_.push_back({patch.centroid(),
+                         patch.normal(),
+                         {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()},
+                         values[part.first + e],
+                         {},
+                         {}});
       for (const Vec3& p : patch.ring()) around_[key(p)].push_back(e);
     }
     for (std::uint32_t e = 0; e < part.count; ++e) fit(e, mesh.patches()[part.first + e].ring());

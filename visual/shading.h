@@ -13,9 +13,9 @@ namespace interflect::visual {
 
 /// Polygons with colours at their corners: what is drawn.
 struct Polygons {
-  std::vector<Vec3> corners;       ///< polygon after polygon [m]
+  std::vector<Vec3> corners;        ///< polygon after polygon [m]
   std::vector<std::uint8_t> sizes;  ///< corners of each: 3 or 4
-  std::vector<Colour> colours;     ///< one a corner
+  std::vector<Colour> colours;      ///< one a corner
   void add(std::span<const Vec3> ring, std::span<const Colour> ring_colours);
 };
 
@@ -25,9 +25,10 @@ Polygons flat(const mesh::ElementMesh& mesh, std::span<const Colour> colours);
 /// Linear red, green, blue over an element.
 using Rgb = std::array<double, 3>;
 
-/// Values smoothed inside each side of a surface, for looking: at a corner the mean of what its elements extrapolate to it, each along
-/// the gradient that fits its neighbours best (least squares: exact for linear fields), not beyond half of what they vary and not
-/// below 0.  Neighbours share a corner and lie within 20 degrees of the same plane.  Each element becomes one triangle per edge.
+/// Values smoothed inside each side of a surface, for looking: at a corner the mean of what its elements extrapolate to
+/// it, each along the gradient that fits its neighbours best (least squares: exact for linear fields), not beyond half
+/// of what they vary and not below 0.  Neighbours share a corner and lie within 20 degrees of the same plane.  Each
+/// element becomes one triangle per edge.
 Polygons smooth(const mesh::ElementMesh& mesh, std::span<const Rgb> values, double white);
 
 /// sRGB of `value` / white, clipped.

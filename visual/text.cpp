@@ -36,7 +36,8 @@ core::Image line_box(const std::string& text, int size, bool bold) {
   core::Image coverage(width, height, {"coverage"});
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const auto* rgba = static_cast<const unsigned char*>(drawn->GetScalarPointer(extent[0] + x, extent[2] + height - 1 - y, 0));
+      const auto* rgba =
+          static_cast<const unsigned char*>(drawn->GetScalarPointer(extent[0] + x, extent[2] + height - 1 - y, 0));
       coverage.at(x, y, 0) = static_cast<float>(rgba[3]) / 255.0F;
     }
   return coverage;

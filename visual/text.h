@@ -10,8 +10,8 @@ namespace interflect::visual {
 /// A line of text as coverage: one channel, [0, 1].
 struct TextLine {
   int width = 0, height = 0;
-  int ascent = 0;         ///< rows above the base line
-  core::Image coverage;   ///< empty where there is nothing to draw
+  int ascent = 0;        ///< rows above the base line
+  core::Image coverage;  ///< empty where there is nothing to draw
 
   bool empty() const { return width == 0; }
 };

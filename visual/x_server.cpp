@@ -71,7 +71,8 @@ XServer::XServer() {
   ::close(ends[0]);
   if (!number) {
     end();
-    throw core::InputError("pictures", "no display: set DISPLAY, or install a virtual one (Debian: apt-get install xvfb)");
+    throw core::InputError("pictures",
+                           "no display: set DISPLAY, or install a virtual one (Debian: apt-get install xvfb)");
   }
   number_ = *number;
 }

@@ -6,8 +6,8 @@ namespace interflect::visual {
 
 /// A virtual X server (Xvfb) of our own: it ends with this object, and with the program however that ends.
 ///
-/// It runs in a session of its own, so that a Ctrl-C reaches the program alone, and is told by the kernel (PDEATHSIG) when the
-/// thread that started it is gone: keep the object on a thread that lives as long.
+/// It runs in a session of its own, so that a Ctrl-C reaches the program alone, and is told by the kernel (PDEATHSIG)
+/// when the thread that started it is gone: keep the object on a thread that lives as long.
 class XServer {
  public:
   /// @throws core::InputError  naming the package, if it cannot be started

@@ -41,7 +41,7 @@ GaussLambert::GaussLambert(const FormFactorContext& context)
       integrate_(context.patches, context.tolerance),
       clusters_(clusters_of(context.patches, integrate_.shapes())),
       blockers_(context.scene, integrate_.shapes().origin()),
-      visibility_(context.patches, context.rays, context.seed) {}
+      visibility_(context.patches, context.rays, context.visibility_rays, context.seed) {}
 
 PairCounts GaussLambert::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
   PairCounts counts;
@@ -64,7 +64,7 @@ PairCounts GaussLambert::exchange(const ElementBlock& rows, const ElementBlock& 
       sink.add(i, j, value, unoccluded.error);
       return;
     }
-    const SampledVisibility v = visibility_(i, j, rays_per_side(context_.visibility_rays, value / smaller), workspace);
+    const SampledVisibility v = visibility_(i, j, effort_for(value / smaller), workspace);
     ++counts.sampled;
     counts.rays += static_cast<std::uint64_t>(v.rays);
     sink.add(i, j, value * v.visible, std::hypot(unoccluded.error, value * v.standard_error));

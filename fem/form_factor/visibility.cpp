@@ -1,60 +1,107 @@
 #include "fem/form_factor/visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "core/random.h"
-#include "fem/element_point.h"
 
 namespace interflect::fem {
 
 namespace {
 
-/// A random permutation of 0 .. n-1 [Fisher, Yates 1938]; the first of the stream's blocks are its own.
-void permute(std::uint64_t seed, std::uint64_t pair, std::vector<std::uint32_t>& order) {
-  std::iota(order.begin(), order.end(), 0u);
-  core::RandomBlock block{};
-  for (std::uint32_t left = static_cast<std::uint32_t>(order.size()), drawn = 0; left > 1; --left, ++drawn) {
-    if (drawn % 4 == 0) block = core::random_block(seed, 1, pair, drawn / 4);
-    const auto at = static_cast<std::uint32_t>((std::uint64_t{block[drawn % 4]} * left) >> 32);
-    std::swap(order[left - 1], order[at]);
+using Words = std::array<std::uint32_t, PointLanes::count>;
+
+/// Random points in cells of the unit square, given by row and column; 16 bits are plenty to jitter inside a cell.
+struct JitteredCells {
+  alignas(32) PointLanes::Numbers s, t;
+  JitteredCells(const std::uint32_t* row, const std::uint32_t* column, std::uint32_t side, std::uint32_t turn_rows, std::uint32_t turn_columns,
+                const Words& bits) {
+    const double cell = 1.0 / side;
+    for (std::size_t l = 0; l < PointLanes::count; ++l) {
+      const std::uint32_t r = row[l] + turn_rows, c = column[l] + turn_columns;  // less `side` where that does not wrap around
+      s[l] = cell * (static_cast<int>(std::min(r, r - side)) + (0.5 + static_cast<int>(bits[l] >> 16)) * 0x1p-16);
+      t[l] = cell * (static_cast<int>(std::min(c, c - side)) + (0.5 + static_cast<int>(bits[l] & 0xffffu)) * 0x1p-16);
+    }
   }
+};
+
+/// cos cos / r² times the weights of the points; not positive where the points face away.
+PointLanes::Numbers weights_between(const PointLanes& x, const PointLanes& y, const Vec3& normal_x, const Vec3& normal_y) {
+  const double ax = normal_x.x(), ay = normal_x.y(), az = normal_x.z(), bx = normal_y.x(), by = normal_y.y(), bz = normal_y.z();
+  PointLanes::Numbers weight;
+  for (std::size_t l = 0; l < PointLanes::count; ++l) {
+    const double dx = y.x[l] - x.x[l], dy = y.y[l] - x.y[l], dz = y.z[l] - x.z[l];
+    const double leaves = std::max(0.0, ax * dx + ay * dy + az * dz), arrives = -(bx * dx + by * dy + bz * dz);
+    const double square = dx * dx + dy * dy + dz * dz;
+    weight[l] = x.weight[l] * y.weight[l] * leaves * arrives / (square * square);
+  }
+  return weight;
 }
 
 }  // namespace
 
-VisibilitySampler::VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, std::uint64_t seed)
-    : patches_(patches), rays_(rays), seed_(core::derived_seed(seed, "visibility")) {
+/// [Fisher, Yates 1938], a stream for each permutation.
+CellPermutations::CellPermutations(int side, std::uint64_t seed) : side_(static_cast<std::uint32_t>(side)) {
+  const std::uint32_t n = side_ * side_;
+  std::vector<std::uint32_t> order(n);
+  for (std::uint32_t p = 0; p <= count; ++p) {
+    std::iota(order.begin(), order.end(), 0u);
+    core::RandomNumbers random(seed, p, n);
+    for (std::uint32_t left = n; p > 0 && left > 1; --left) std::swap(order[left - 1], order[static_cast<std::size_t>(random.next() * left)]);
+    for (const std::uint32_t cell : order) rows_.push_back(cell / side_), columns_.push_back(cell % side_);
+  }
+  rows_.resize(rows_.size() + PointLanes::count);
+  columns_.resize(rows_.size());
+}
+
+CellPermutations::Pairing CellPermutations::pairing(const core::RandomBlock& random) const {
+  const auto below = [](std::uint32_t bits, std::uint32_t n) { return static_cast<std::uint32_t>((std::uint64_t{bits} * n) >> 32); };
+  const std::size_t first = std::size_t{1 + random[0] % count} * side_ * side_;
+  return {rows_.data(), columns_.data(), rows_.data() + first, columns_.data() + first, below(random[1], side_), below(random[2], side_)};
+}
+
+VisibilitySampler::VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int rays_per_pair,
+                                     std::uint64_t seed)
+    : maps_(patches.begin(), patches.end()), rays_(rays), seed_(core::derived_seed(seed, "visibility")) {
+  const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(std::max(rays_per_pair, 4)))));
+  for (const int times : {1, 2, 4}) permutations_.emplace_back(times * side, core::derived_seed(seed, "strata"));
   for (const auto& patch : patches) normals_.push_back(patch.normal());
 }
 
-void VisibilitySampler::generate(Index i, Index j, int side, Workspace& w) const {
-  const auto n = static_cast<std::uint32_t>(side * side), m = static_cast<std::uint32_t>(side);
+void VisibilitySampler::generate(Index i, Index j, Effort effort, Workspace& w) const {
+  const CellPermutations& strata = permutations_[static_cast<std::size_t>(effort)];
+  const std::uint32_t m = strata.side(), n = m * m;
   const std::uint64_t pair = (static_cast<std::uint64_t>(i) << 32) | static_cast<std::uint64_t>(j);
-  const auto &patch_i = patches_[static_cast<std::size_t>(i)], &patch_j = patches_[static_cast<std::size_t>(j)];
-  const Vec3 &normal_i = normals_[static_cast<std::size_t>(i)], &normal_j = normals_[static_cast<std::size_t>(j)];
-  const double cell = 1.0 / side;
-  w.partner.resize(n);
-  permute(seed_, pair, w.partner);
-  w.segments.clear();
-  w.weights.clear();
-  for (std::uint32_t k = 0; k < n; ++k) {
-    const core::RandomBlock u = core::random_block(seed_, 0, pair, k);
-    const std::uint32_t l = w.partner[k];
-    const auto x = element_point(patch_i, cell * (k / m + core::uniform_32(u[0])), cell * (k % m + core::uniform_32(u[1])));
-    const auto y = element_point(patch_j, cell * (l / m + core::uniform_32(u[2])), cell * (l % m + core::uniform_32(u[3])));
-    const Vec3 d = y.position - x.position;
-    const double leaves = normal_i.dot(d), arrives = -normal_j.dot(d);
-    if (leaves <= 0.0 || arrives <= 0.0) continue;
-    const double square = d.squaredNorm();
-    w.segments.push_back({x.position, y.position, normal_i, normal_j});
-    w.weights.push_back(x.weight * y.weight * leaves * arrives / (square * square));
+  const ElementMap &onto_i = maps_[static_cast<std::size_t>(i)], &onto_j = maps_[static_cast<std::size_t>(j)];
+  const Vec3 normal_i = normals_[static_cast<std::size_t>(i)], normal_j = normals_[static_cast<std::size_t>(j)];
+  const CellPermutations::Pairing cells = strata.pairing(core::random_block(seed_, 1, pair, 0));
+  w.segments.resize(n);
+  w.weights.resize(n);
+  std::size_t used = 0;
+  for (std::uint32_t first = 0; first < n; first += PointLanes::count) {
+    Words bits_i, bits_j;
+    for (std::uint32_t l = 0; l < PointLanes::count; l += 2) {
+      const core::RandomBlock block = core::random_block(seed_, 0, pair, (first + l) / 2);
+      bits_i[l] = block[0], bits_j[l] = block[1], bits_i[l + 1] = block[2], bits_j[l + 1] = block[3];
+    }
+    const JitteredCells in_i(cells.row + first, cells.column + first, m, 0, 0, bits_i);
+    const JitteredCells in_j(cells.partner_row + first, cells.partner_column + first, m, cells.turn_rows, cells.turn_columns, bits_j);
+    const PointLanes x = onto_i(in_i.s, in_i.t), y = onto_j(in_j.s, in_j.t);
+    const PointLanes::Numbers weight = weights_between(x, y, normal_i, normal_j);
+    for (std::uint32_t l = 0; l < std::min<std::uint32_t>(PointLanes::count, n - first); ++l) {
+      if (!(weight[l] > 0.0)) continue;
+      w.segments[used] = {x.position(l), y.position(l), normal_i, normal_j};
+      w.weights[used++] = weight[l];
+    }
   }
+  w.segments.resize(used);
+  w.weights.resize(used);
 }
 
-SampledVisibility VisibilitySampler::operator()(Index i, Index j, int side, Workspace& w) const {
-  generate(i, j, side, w);
+SampledVisibility VisibilitySampler::operator()(Index i, Index j, Effort effort, Workspace& w) const {
+  generate(i, j, effort, w);
   const std::size_t n = w.segments.size();
   if (n == 0) return {0.5, 0.5, 0};  // a sliver that no pair of points found: nothing is known
   w.blocked.resize(n);
@@ -73,9 +120,8 @@ SampledVisibility estimated_visibility(std::span<const double> weights, std::spa
   return {clear / all, std::sqrt(cautious * (1.0 - cautious) * squares) / all, static_cast<int>(weights.size())};
 }
 
-int rays_per_side(int rays, double form_factor) {
-  const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(std::max(rays, 4)))));
-  return form_factor > 0.03 ? 4 * side : form_factor > 0.004 ? 2 * side : side;
+Effort effort_for(double form_factor) {
+  return form_factor > 0.03 ? Effort::sixteenfold : form_factor > 0.004 ? Effort::fourfold : Effort::single;
 }
 
 }  // namespace interflect::fem

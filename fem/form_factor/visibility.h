@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/random.h"
+#include "fem/element_point.h"
 #include "raycast/ray_caster.h"
 #include "scene/place.h"
 
@@ -24,11 +26,43 @@ struct SampledVisibility {
 /// are worth about 1/(n + 2) and not certainty [Agresti, Coull 1998].  Stratification makes the truth somewhat better than s.
 SampledVisibility estimated_visibility(std::span<const double> weights, std::span<const std::uint8_t> blocked);
 
+/// Random pairings of m x m cells with m x m cells.
+///
+/// A few permutations are drawn once; a pair of elements takes one of them and turns it by a random shift of rows and columns, so that
+/// every cell of one is joined with every cell of the other with equal probability: no bias, whatever the permutations.
+class CellPermutations {
+ public:
+  CellPermutations(int side, std::uint64_t seed);
+  std::uint32_t side() const { return side_; }
+
+  /// Rows and columns as numbers 0 .. side - 1: of the cells in order, and of their partners for a pair's random numbers.
+  /// Both continue (with anything) for PointLanes::count cells beyond the last.
+  struct Pairing {
+    const std::uint32_t *row, *column, *partner_row, *partner_column;  ///< partners before the turn
+    std::uint32_t turn_rows, turn_columns;
+  };
+  Pairing pairing(const core::RandomBlock& random) const;
+
+ private:
+  static constexpr std::uint32_t count = 64;
+  std::uint32_t side_;
+  std::vector<std::uint32_t> rows_, columns_;  ///< in order, then permutation after permutation
+};
+
+/// How many rays a pair gets: once, four or sixteen times the number set.
+enum class Effort : std::uint8_t { single, fourfold, sixteenfold };
+
+/// For a pair with this form factor (the larger of F_ij and F_ji): fourfold above 0.004, sixteenfold above 0.03.
+///
+/// The noise of a row is sqrt(sum_j (F_ij s_ij B_j)²): a few large entries dominate it, and rays are best given in proportion to F
+/// [Neyman 1934]; four times as many halve such an entry's share.
+Effort effort_for(double form_factor);
+
 /// V_ij by rays between stratified points: with k = cos cos / r² at the k-th pair of points and v = 1 where it is clear,
 ///
 ///   V = sum k v / sum k        (a ratio estimator: its expected value is K_ij / K_ij,unoccluded up to O(1/n))
 ///
-/// Points: n = m² of them, one in each of m x m cells of equal area of i, joined with the cells of j by a random permutation.
+/// Points: one in each of m x m cells of equal parameter area of i, each joined with a cell of j's by a random permutation.
 /// Random numbers are keyed by (seed, i, j): the answer does not depend on who asks, when, or in which block.
 class VisibilitySampler {
  public:
@@ -37,30 +71,24 @@ class VisibilitySampler {
     std::vector<raycast::Segment> segments;
     std::vector<double> weights;
     std::vector<std::uint8_t> blocked;
-    std::vector<std::uint32_t> partner;
   };
 
-  /// @param seed  of the run: it is made one of visibility's own here
-  VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, std::uint64_t seed);
+  /// @param rays_per_pair  for Effort::single: m² is the next square, at least 4
+  /// @param seed           of the run: it is made one of visibility's own here
+  VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int rays_per_pair, std::uint64_t seed);
 
   /// @param i < j  elements
-  /// @param side   m: m² pairs of points
-  SampledVisibility operator()(Index i, Index j, int side, Workspace& workspace) const;
+  SampledVisibility operator()(Index i, Index j, Effort effort, Workspace& workspace) const;
 
   /// The rays and their weights alone, in the order in which they are cast; without pairs of points that face away.
-  void generate(Index i, Index j, int side, Workspace& workspace) const;
+  void generate(Index i, Index j, Effort effort, Workspace& workspace) const;
 
  private:
-  std::span<const scene::SurfacePatch> patches_;
+  std::vector<ElementMap> maps_;
   std::vector<Vec3> normals_;
   const raycast::RayCaster& rays_;
   std::uint64_t seed_;
+  std::vector<CellPermutations> permutations_;  ///< by effort
 };
-
-/// m for a pair with this form factor (the larger of F_ij and F_ji): m² >= `rays` in general, 4 m² above 0.004, 16 m² above 0.03.
-///
-/// The noise of a row is sqrt(sum_j (F_ij s_ij B_j)²): a few large entries dominate it, and rays are best given in proportion to F
-/// [Neyman 1934]; four times as many halve such an entry's share.
-int rays_per_side(int rays, double form_factor);
 
 }  // namespace interflect::fem

@@ -147,12 +147,17 @@ void DenseSymmetric::multiply(const TileOf& tile_of, solvers::ConstColumns b, so
     sums[static_cast<std::size_t>(s)] = std::move(y);
   });
 
-  run.threads.for_blocks(n, 16 * tile_size, [&](Index begin, Index stop) {
-    out.middleRows(begin, stop - begin).setZero();
-    for (std::size_t s = 0; s < strips_.size(); ++s) {
-      const Index origin = strips_[s].first * tile_size;
-      for (Index a = std::max(begin, origin); a < stop; ++a)
-        for (Index c = 0; c < columns; ++c) out(a, c) += std::as_const(sums[s])(a - origin, c);
+  run.threads.for_blocks(tile_rows_, 16, [&](Index begin, Index stop) {
+    std::vector<double> of_tile(static_cast<std::size_t>(columns * tile_size));
+    for (Index I = begin; I < stop; ++I) {
+      std::fill(of_tile.begin(), of_tile.end(), 0.0);
+      for (std::size_t s = 0; s < strips_.size() && strips_[s].first <= I; ++s) {
+        const double* part = std::as_const(sums[s]).tile(I - strips_[s].first);
+        for (std::size_t i = 0; i < of_tile.size(); ++i) of_tile[i] += part[i];
+      }
+      for (Index i = 0; i < std::min(tile_size, n - I * tile_size); ++i)
+        for (Index c = 0; c < columns; ++c)
+          out(I * tile_size + i, c) = of_tile[static_cast<std::size_t>(c * tile_size + i)];
     }
   });
 }

@@ -33,7 +33,8 @@ class SceneWalk {
     own << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
     const Eigen::Matrix4d placed = parent * own;
     for (unsigned k = 0; k < n.mNumMeshes; ++k) {
-      if (n.mMeshes[k] >= scene_.mNumMeshes) throw core::InputError(shown_, "a node refers to a mesh that does not exist");
+      if (n.mMeshes[k] >= scene_.mNumMeshes)
+        throw core::InputError(shown_, "a node refers to a mesh that does not exist");
       add(*scene_.mMeshes[n.mMeshes[k]], n, placed);
     }
     for (unsigned k = 0; k < n.mNumChildren; ++k) node(*n.mChildren[k], placed);
@@ -56,7 +57,8 @@ class SceneWalk {
         ++ignored_;
         continue;
       }
-      mesh_.faces.push_back({static_cast<std::uint32_t>(mesh_.indices.size()), face.mNumIndices, group_index, material});
+      mesh_.faces.push_back(
+          {static_cast<std::uint32_t>(mesh_.indices.size()), face.mNumIndices, group_index, material});
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
         const unsigned index = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
         if (index >= mesh.mNumVertices)
@@ -92,7 +94,8 @@ MeshFile read_by_assimp(const std::filesystem::path& file, const std::string& sh
   MeshFile mesh = SceneWalk(*scene, shown).run();
   std::size_t read = 0;
   for (unsigned k = 0; k < scene->mNumMeshes; ++k) read += scene->mMeshes[k]->mNumFaces;
-  if (promised && read < *promised) mesh.notes.push_back(core::format("%zu faulty face(s) left out by the reader", *promised - read));
+  if (promised && read < *promised)
+    mesh.notes.push_back(core::format("%zu faulty face(s) left out by the reader", *promised - read));
   return mesh;
 }
 

@@ -43,7 +43,9 @@ void GeometryReader::read(const JsonNode& geometry) {
       if (file + polygon + box == 0) entry.only({"file", "polygon", "box", "name", "material", "transform"});
       entry.fail("one of 'file', 'polygon' and 'box' is expected");
     }
-    const auto name = [&] { return entry.has("name") ? entry.at("name").string() : core::format("%s-%zu", polygon ? "polygon" : "box", k); };
+    const auto name = [&] {
+      return entry.has("name") ? entry.at("name").string() : core::format("%s-%zu", polygon ? "polygon" : "box", k);
+    };
     if (entry.has("name") && !file) ++given[name()];
     if (file) read_file(entry);
     if (polygon) read_polygon(entry, name());
@@ -52,7 +54,8 @@ void GeometryReader::read(const JsonNode& geometry) {
   for (const auto& [name, count] : given)
     if (count > 1)
       builder_.scene().warnings.push_back(
-          {shown_, core::format("the name '%s' is given to %zu surfaces: they are numbered", shown_word(name).c_str(), count)});
+          {shown_,
+           core::format("the name '%s' is given to %zu surfaces: they are numbered", shown_word(name).c_str(), count)});
 }
 
 void GeometryReader::read_polygon(const JsonNode& entry, const std::string& name) {
@@ -77,7 +80,8 @@ void GeometryReader::read_box(const JsonNode& entry, const std::string& name) {
   if (!(box.max().array() > box.min().array()).all()) node.fail("'min' must be below 'max' in all three coordinates");
   using Facing = SceneBuilder::Facing;
   Facing facing = Facing::outward;
-  if (entry.has("facing")) facing = entry.at("facing").one_of({"outward", "inward"}) == 0 ? Facing::outward : Facing::inward;
+  if (entry.has("facing"))
+    facing = entry.at("facing").one_of({"outward", "inward"}) == 0 ? Facing::outward : Facing::inward;
   const MaterialId material = materials_.use(builder_, entry.at("material"), Sides::front);
   try {
     const Placement placement = read_placement(entry, unit_);
@@ -104,7 +108,8 @@ void GeometryReader::read_file(const JsonNode& entry) {
   const std::size_t welded = place_vertices(mesh, placement, repair.weld);
   if (welded > 0) repairs.push_back({shown, core::format("%zu vertices welded to others", welded)});
   if (mesh.single_precision)
-    builder_.scene().warnings.push_back({shown, "coordinates are in single precision, as the format or its reader has them"});
+    builder_.scene().warnings.push_back(
+        {shown, "coordinates are in single precision, as the format or its reader has them"});
   import_mesh(builder_, mesh, materials, repair, shown);
 }
 
@@ -123,11 +128,13 @@ std::vector<MaterialId> GeometryReader::map_materials(const JsonNode& entry, con
       missing += (missing.empty() ? "'" : ", '") + shown_word(name) + "'";
   }
   if (!missing.empty())
-    entry.fail("materials of the file without one of the scene: " + missing + " (map them in \"materials\", or name one as \"unmapped\")");
+    entry.fail("materials of the file without one of the scene: " + missing +
+               " (map them in \"materials\", or name one as \"unmapped\")");
   if (mapped)
     for (const auto& [name, target] : entry.at("materials").members())
       if (std::find(names.begin(), names.end(), name) == names.end())
-        builder_.scene().warnings.push_back({shown, "no face bears the material '" + shown_word(name) + "' that is mapped"});
+        builder_.scene().warnings.push_back(
+            {shown, "no face bears the material '" + shown_word(name) + "' that is mapped"});
   return out;
 }
 

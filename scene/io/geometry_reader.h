@@ -14,8 +14,8 @@ class GeometryReader {
  public:
   /// @param folder  what the paths of mesh files are relative to
   /// @param shown   the scene file, in notes
-  GeometryReader(SceneBuilder& builder, MaterialLibrary& materials, const LengthUnit& unit, std::filesystem::path folder,
-                 std::string shown)
+  GeometryReader(SceneBuilder& builder, MaterialLibrary& materials, const LengthUnit& unit,
+                 std::filesystem::path folder, std::string shown)
       : builder_(builder), materials_(materials), unit_(unit), folder_(std::move(folder)), shown_(std::move(shown)) {}
 
   void read(const JsonNode& geometry);
@@ -24,7 +24,8 @@ class GeometryReader {
   void read_polygon(const JsonNode& entry, const std::string& name);
   void read_box(const JsonNode& entry, const std::string& name);
   void read_file(const JsonNode& entry);
-  std::vector<MaterialId> map_materials(const JsonNode& entry, const std::vector<std::string>& names, const std::string& shown);
+  std::vector<MaterialId> map_materials(const JsonNode& entry, const std::vector<std::string>& names,
+                                        const std::string& shown);
 
   SceneBuilder& builder_;
   MaterialLibrary& materials_;

@@ -18,11 +18,11 @@ struct JsonValue {
   bool boolean = false;
   double number = 0;
   std::string string;
-  std::vector<JsonValue> items;    ///< of an array, or the values of an object
+  std::vector<JsonValue> items;   ///< of an array, or the values of an object
   std::vector<std::string> keys;  ///< of an object, beside `items`
 };
 
-/// A value seen from where it stands, so that every complaint names its place: "office.json:41: /materials/walls/reflectance: ..".
+/// A value seen from where it stands, so that complaints name their place: "office.json:41: /materials/walls/reflectance: ..".
 ///
 /// A cursor: it must not outlive its JsonDocument.  Everything that does not fit throws core::InputError.
 class JsonNode {

@@ -11,12 +11,18 @@ namespace {
 
 const char* describe(JsonValue::Kind kind) {
   switch (kind) {
-    case JsonValue::Kind::null: return "null";
-    case JsonValue::Kind::boolean: return "true or false";
-    case JsonValue::Kind::number: return "a number";
-    case JsonValue::Kind::string: return "a string";
-    case JsonValue::Kind::array: return "an array";
-    case JsonValue::Kind::object: return "an object";
+    case JsonValue::Kind::null:
+      return "null";
+    case JsonValue::Kind::boolean:
+      return "true or false";
+    case JsonValue::Kind::number:
+      return "a number";
+    case JsonValue::Kind::string:
+      return "a string";
+    case JsonValue::Kind::array:
+      return "an array";
+    case JsonValue::Kind::object:
+      return "an object";
   }
   return "nothing";
 }
@@ -71,14 +77,16 @@ void JsonNode::only(const std::vector<std::string>& known) const {
 std::vector<std::pair<std::string, JsonNode>> JsonNode::members() const {
   require(JsonValue::Kind::object);
   std::vector<std::pair<std::string, JsonNode>> out;
-  for (std::size_t k = 0; k < value_->keys.size(); ++k) out.emplace_back(value_->keys[k], child(value_->keys[k], value_->items[k]));
+  for (std::size_t k = 0; k < value_->keys.size(); ++k)
+    out.emplace_back(value_->keys[k], child(value_->keys[k], value_->items[k]));
   return out;
 }
 
 std::vector<JsonNode> JsonNode::items(std::size_t least, std::size_t most) const {
   require(JsonValue::Kind::array);
   const std::size_t count = value_->items.size();
-  if (least > 0 && least == most && count != least) fail(core::format("%zu elements are expected, not %zu", least, count));
+  if (least > 0 && least == most && count != least)
+    fail(core::format("%zu elements are expected, not %zu", least, count));
   if (count < least) fail(core::format("at least %zu elements are expected, not %zu", least, count));
   if (most > 0 && count > most) fail(core::format("at most %zu elements are expected, not %zu", most, count));
   std::vector<JsonNode> out;

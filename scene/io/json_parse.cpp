@@ -21,7 +21,8 @@ struct Reading {
   /// The line of the token that was read last.  A number is known to end only by the character after it, which may be a line
   /// break: the last character consumed does not count.
   int line_now() {
-    for (const std::size_t end = consumed > 0 ? consumed - 1 : 0; counted < end; ++counted) line += text[counted] == '\n';
+    for (const std::size_t end = consumed > 0 ? consumed - 1 : 0; counted < end; ++counted)
+      line += text[counted] == '\n';
     return line;
   }
 };
@@ -94,7 +95,9 @@ class TreeHandler {
     object.keys.push_back(std::move(name));
     return true;
   }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) { fail(bare_message(error.what())); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
+    fail(bare_message(error.what()));
+  }
 
  private:
   [[noreturn]] void fail(const std::string& message) {

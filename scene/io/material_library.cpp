@@ -15,7 +15,8 @@ void require_reflectance(const JsonNode& node) {
 }
 
 void require_emission(const JsonNode& node) {
-  if (node.number() < 0) node.fail(core::format("%.9g is negative: a surface cannot emit less than nothing", node.number()));
+  if (node.number() < 0)
+    node.fail(core::format("%.9g is negative: a surface cannot emit less than nothing", node.number()));
 }
 
 template <class Check>
@@ -34,7 +35,8 @@ void require_known(const JsonNode& node) {
       node.at("type").fail("this version does not know the type '" + type + "': only 'diffuse'");
     node.at("type").fail(unknown_word("the type", type, {"diffuse"}));
   }
-  if (node.has("transmittance")) node.at("transmittance").fail("this version does not know transmittance: materials are opaque");
+  if (node.has("transmittance"))
+    node.at("transmittance").fail("this version does not know transmittance: materials are opaque");
   node.only({"type", "reflectance", "exitance", "flux", "sides"});
 }
 
@@ -50,7 +52,8 @@ Spectrum read_spectrum(const JsonNode& node, int channels) {
   if (!node.is_array()) node.fail("a number or an array of numbers is expected");
   const auto values = node.items();
   if (values.size() != static_cast<std::size_t>(channels))
-    node.fail(core::format("%zu numbers for a scene of %d channel%s", values.size(), channels, channels == 1 ? "" : "s"));
+    node.fail(
+        core::format("%zu numbers for a scene of %d channel%s", values.size(), channels, channels == 1 ? "" : "s"));
   for (int c = 0; c < channels; ++c) out[c] = values[static_cast<std::size_t>(c)].number();
   return out;
 }
@@ -66,7 +69,8 @@ std::vector<std::string> read_channels(const JsonNode& root) {
     for (const JsonNode& node : nodes) {
       names.push_back(node.string());
       if (names.back().empty()) node.fail("a channel needs a name");
-      if (!taken.insert(names.back()).second) node.fail("two channels have the name '" + shown_word(names.back()) + "'");
+      if (!taken.insert(names.back()).second)
+        node.fail("two channels have the name '" + shown_word(names.back()) + "'");
     }
     return names;
   }
@@ -74,8 +78,7 @@ std::vector<std::string> read_channels(const JsonNode& root) {
     for (const char* key : {"reflectance", "exitance", "flux"}) {
       if (!material.is_object() || !material.has(key) || !material.at(key).is_array()) continue;
       const std::size_t count = material.at(key).items(1).size();
-      if (count > most)
-        material.at(key).fail(core::format("%zu channels: this build holds at most %zu", count, most));
+      if (count > most) material.at(key).fail(core::format("%zu channels: this build holds at most %zu", count, most));
       if (count == 3) return {"r", "g", "b"};
       if (count == 1) return {"y"};
       for (std::size_t c = 1; c <= count; ++c) names.push_back(core::format("band_%zu", c));
@@ -100,7 +103,8 @@ MaterialLibrary::Entry MaterialLibrary::read_entry(const std::string& name, cons
   if (node.has("exitance")) entry.material.exitance = read_checked(node.at("exitance"), channels, require_emission);
   if (node.has("flux")) entry.flux = read_checked(node.at("flux"), channels, require_emission);
   entry.says_sides = node.has("sides");
-  if (entry.says_sides) entry.material.sides = node.at("sides").one_of({"front", "both"}) == 0 ? Sides::front : Sides::both;
+  if (entry.says_sides)
+    entry.material.sides = node.at("sides").one_of({"front", "both"}) == 0 ? Sides::front : Sides::both;
   return entry;
 }
 

@@ -32,7 +32,7 @@ class MaterialLibrary {
   struct Entry {
     Material material;
     bool says_sides = false;
-    std::optional<Spectrum> flux;  ///< [W | lm]
+    std::optional<Spectrum> flux;                   ///< [W | lm]
     std::array<std::optional<MaterialId>, 2> used;  ///< by Sides
   };
   static Entry read_entry(const std::string& name, const JsonNode& node, int channels);

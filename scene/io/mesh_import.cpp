@@ -31,28 +31,31 @@ std::optional<Triangles> split_quad(const geometry::Ring& r) {
     const Vec3 turn = (r[(k + 1) % 4] - r[k]).cross(r[(k + 2) % 4] - r[(k + 1) % 4]);
     if (turn.dot(normal) <= flatness * diameter * diameter * normal.norm()) return std::nullopt;
   }
-  if ((r[2] - r[0]).squaredNorm() <= (r[3] - r[1]).squaredNorm()) return Triangles{{r[0], r[1], r[2]}, {r[0], r[2], r[3]}};
+  if ((r[2] - r[0]).squaredNorm() <= (r[3] - r[1]).squaredNorm())
+    return Triangles{{r[0], r[1], r[2]}, {r[0], r[2], r[3]}};
   return Triangles{{r[0], r[1], r[3]}, {r[1], r[2], r[3]}};
 }
 
 class MeshImport {
  public:
-  MeshImport(SceneBuilder& builder, const MeshFile& mesh, const std::vector<MaterialId>& materials, const MeshRepair& repair,
-             const std::string& shown)
+  MeshImport(SceneBuilder& builder, const MeshFile& mesh, const std::vector<MaterialId>& materials,
+             const MeshRepair& repair, const std::string& shown)
       : builder_(builder), mesh_(mesh), materials_(materials), repair_(repair), shown_(shown) {}
 
   void run() {
     for (const MeshFile::Face& face : mesh_.faces) add(face);
     for (auto& part : parts_) finish(part);
     const auto note = [&](std::size_t count, const char* one, const char* many) {
-      if (count > 0) builder_.scene().repairs.push_back({shown_, core::format("%zu %s", count, count == 1 ? one : many)});
+      if (count > 0)
+        builder_.scene().repairs.push_back({shown_, core::format("%zu %s", count, count == 1 ? one : many)});
     };
     note(degenerate_, "degenerate face dropped", "degenerate faces dropped");
     note(duplicate_, "duplicate face dropped", "duplicate faces dropped");
     note(bent_, "face that is not planar split into triangles", "faces that are not planar split into triangles");
     note(crossing_, "face that crosses itself split as a fan", "faces that cross themselves split as fans");
     if (reversed_ > 0)
-      builder_.scene().warnings.push_back({shown_, core::format("%zu faces lie on others that face the other way", reversed_)});
+      builder_.scene().warnings.push_back(
+          {shown_, core::format("%zu faces lie on others that face the other way", reversed_)});
     if (builder_.scene().surfaces.size() == first_surface_)
       throw core::InputError(shown_, "no face with an area is left");
   }
@@ -130,7 +133,8 @@ class MeshImport {
     std::size_t key = ring.size();
     for (const Vec3& x : ring) {  // a sum: the order does not count
       std::size_t h = 0;
-      for (int axis = 0; axis < 3; ++axis) h = (h ^ std::hash<double>()(x[axis] + 0.0)) * 0x9E3779B97F4A7C15u + (h >> 31);
+      for (int axis = 0; axis < 3; ++axis)
+        h = (h ^ std::hash<double>()(x[axis] + 0.0)) * 0x9E3779B97F4A7C15u + (h >> 31);
       key += h;
     }
     return key;
@@ -160,7 +164,8 @@ class MeshImport {
       const int way = compare(ring_of(*other), ring);
       if (way == 0) continue;
       const MaterialId material = materials_[face.material];
-      const bool harmless = way > 0 || (material == materials_[other->material] && all[material.value].sides == Sides::both);
+      const bool harmless =
+          way > 0 || (material == materials_[other->material] && all[material.value].sides == Sides::both);
       if (harmless && repair_.drop_duplicate) {
         ++duplicate_;
         return true;
@@ -213,8 +218,8 @@ class MeshImport {
 
 }  // namespace
 
-void import_mesh(SceneBuilder& builder, const MeshFile& mesh, const std::vector<MaterialId>& materials, const MeshRepair& repair,
-                 const std::string& shown) {
+void import_mesh(SceneBuilder& builder, const MeshFile& mesh, const std::vector<MaterialId>& materials,
+                 const MeshRepair& repair, const std::string& shown) {
   MeshImport(builder, mesh, materials, repair, shown).run();
 }
 

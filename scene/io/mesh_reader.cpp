@@ -44,7 +44,8 @@ MeshFile read_mesh(const std::filesystem::path& file, const std::string& shown) 
     throw core::InputError(shown, "the file asks for more memory than there is");
   }
   if (mesh.faces.empty())
-    throw core::InputError(shown, mesh.vertices.empty() ? "the file has no faces" : "the file has points or lines, and no faces");
+    throw core::InputError(
+        shown, mesh.vertices.empty() ? "the file has no faces" : "the file has points or lines, and no faces");
   for (std::size_t k = 0; k < mesh.vertices.size(); ++k)
     if (!mesh.vertices[k].allFinite()) throw core::InputError(shown, core::format("vertex %zu is not finite", k + 1));
   for (const std::uint32_t index : mesh.indices)

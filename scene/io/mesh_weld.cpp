@@ -59,7 +59,8 @@ std::size_t place_vertices(MeshFile& mesh, const Placement& placement, double we
     largest = std::max(largest, x.cwiseAbs().maxCoeff());
   }
   if (weld <= 0) return 0;
-  if (largest / weld > 1e15) throw core::InputError("a weld of less than 1e-15 of the coordinates is below their rounding");
+  if (largest / weld > 1e15)
+    throw core::InputError("a weld of less than 1e-15 of the coordinates is below their rounding");
   WeldGrid grid(mesh.vertices, weld);
   std::vector<std::uint32_t> representative(mesh.vertices.size());
   std::size_t welded = 0;

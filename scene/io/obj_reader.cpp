@@ -40,7 +40,8 @@ std::string plain_lines(std::string text) {
     const std::size_t first = text.find_first_not_of(" \t", start);
     if (first < end && (text[first] == 'v' || text[first] == 'f'))
       if (const std::size_t comment = text.find('#', first); comment < end)
-        std::fill(text.begin() + static_cast<std::ptrdiff_t>(comment), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        std::fill(text.begin() + static_cast<std::ptrdiff_t>(comment), text.begin() + static_cast<std::ptrdiff_t>(end),
+                  ' ');
     start = end + 1;
   }
   return text;
@@ -53,7 +54,8 @@ std::size_t lone_face_keys(std::string_view text) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const std::string_view line = text.substr(start, end - start);
     const std::size_t key = line.find_first_not_of(" \t");
-    count += key != std::string_view::npos && line[key] == 'f' && line.find_first_not_of(" \t", key + 1) == std::string_view::npos;
+    count += key != std::string_view::npos && line[key] == 'f' &&
+             line.find_first_not_of(" \t", key + 1) == std::string_view::npos;
     start = end + 1;
   }
   return count;
@@ -62,7 +64,10 @@ std::size_t lone_face_keys(std::string_view text) {
 class ObjBuilder {
  public:
   ObjBuilder(std::string text, std::string shown)
-      : original_(std::move(text)), text_(plain_lines(original_)), shown_(std::move(shown)), buffer_(text_),
+      : original_(std::move(text)),
+        text_(plain_lines(original_)),
+        shown_(std::move(shown)),
+        buffer_(text_),
         ignored_(lone_face_keys(text_)) {}
 
   MeshFile build() {
@@ -75,7 +80,9 @@ class ObjBuilder {
     callbacks.usemtl_cb = [](void* self, const char* name, int) {
       static_cast<ObjBuilder*>(self)->material_ = core::single_line(name);
     };
-    callbacks.object_cb = [](void* self, const char* name) { static_cast<ObjBuilder*>(self)->group_ = core::single_line(name); };
+    callbacks.object_cb = [](void* self, const char* name) {
+      static_cast<ObjBuilder*>(self)->group_ = core::single_line(name);
+    };
     callbacks.group_cb = [](void* self, const char** names, int count) {
       static_cast<ObjBuilder*>(self)->group({names, static_cast<std::size_t>(count)});
     };
@@ -111,7 +118,8 @@ class ObjBuilder {
     const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
     double value = 0;
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || stop != digits.data() + digits.size()) fail("'" + shown_word(word) + "' is not a coordinate");
+    if (error != std::errc() || stop != digits.data() + digits.size())
+      fail("'" + shown_word(word) + "' is not a coordinate");
     if (!std::isfinite(value)) fail("the coordinate '" + shown_word(word) + "' is not finite");
     return value;
   }
@@ -140,7 +148,8 @@ class ObjBuilder {
                           static_cast<std::ptrdiff_t>(count)));
       mesh_.indices.push_back(static_cast<std::uint32_t>(index));
     }
-    mesh_.faces.push_back({first, static_cast<std::uint32_t>(corners.size()), groups_.index_of(group_), materials_.index_of(material_)});
+    mesh_.faces.push_back(
+        {first, static_cast<std::uint32_t>(corners.size()), groups_.index_of(group_), materials_.index_of(material_)});
   }
 
   /// The library's integers overflow silently.

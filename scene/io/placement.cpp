@@ -12,10 +12,14 @@ std::array<double, 2> cosine_sine(double degrees) {
   const int quarters = static_cast<int>(std::lround(std::remainder(degrees - quarter, 360.0) / 90.0));
   const double c = std::cos(quarter * (pi / 180)), s = std::sin(quarter * (pi / 180));
   switch ((quarters + 4) % 4) {
-    case 1: return {-s, c};
-    case 2: return {-c, -s};
-    case 3: return {s, -c};
-    default: return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    case 3:
+      return {s, -c};
+    default:
+      return {c, s};
   }
 }
 

@@ -20,12 +20,14 @@ Vec3 read_direction(const JsonNode& node) {
   return direction / length;
 }
 
-std::variant<double, Eigen::Array2i> read_step(const JsonNode& grid, const LengthUnit& unit, const Vec3& u, const Vec3& v) {
+std::variant<double, Eigen::Array2i> read_step(const JsonNode& grid, const LengthUnit& unit, const Vec3& u,
+                                               const Vec3& v) {
   if (grid.has("spacing") == grid.has("counts")) grid.fail("one of 'spacing' and 'counts' is expected");
   if (grid.has("counts")) {
     const auto counts = grid.at("counts").items(2, 2);
     const Eigen::Array2i n(counts[0].integer_in(1, 1000000), counts[1].integer_in(1, 1000000));
-    if (static_cast<double>(n[0]) * n[1] > most_points) grid.at("counts").fail(core::format("more than %.0e points", most_points));
+    if (static_cast<double>(n[0]) * n[1] > most_points)
+      grid.at("counts").fail(core::format("more than %.0e points", most_points));
     return n;
   }
   const JsonNode node = grid.at("spacing");
@@ -34,14 +36,16 @@ std::variant<double, Eigen::Array2i> read_step(const JsonNode& grid, const Lengt
     return std::numeric_limits<double>::quiet_NaN();
   }
   const double spacing = unit.metres(node.positive());
-  if (!(u.norm() / spacing * (v.norm() / spacing) <= most_points)) node.fail(core::format("more than %.0e points", most_points));
+  if (!(u.norm() / spacing * (v.norm() / spacing) <= most_points))
+    node.fail(core::format("more than %.0e points", most_points));
   return spacing;
 }
 
 SensorGrid read_grid(const JsonNode& sensor, const LengthUnit& unit) {
   const JsonNode node = sensor.at("grid");
   node.only({"origin", "u", "v", "spacing", "counts"});
-  SensorGrid grid{unit.metres(node.at("origin").vec3()), unit.metres(node.at("u").vec3()), unit.metres(node.at("v").vec3()), {}, 0};
+  SensorGrid grid{
+      unit.metres(node.at("origin").vec3()), unit.metres(node.at("u").vec3()), unit.metres(node.at("v").vec3()), {}, 0};
   const double u = grid.u.norm(), v = grid.v.norm();
   if (!(u > 0)) node.at("u").fail("a side of a grid has a length");
   if (!(v > 0)) node.at("v").fail("a side of a grid has a length");
@@ -88,7 +92,8 @@ Camera read_camera(const JsonNode& node, const LengthUnit& unit, const Scene& sc
     (node.has("up") ? node.at("up") : node).fail("the camera looks along its 'up': give it another");
   if (node.has("fov_y_deg")) {
     camera.fov_y_deg = node.at("fov_y_deg").number_in(0, 180);
-    if (camera.fov_y_deg == 0 || camera.fov_y_deg == 180) node.at("fov_y_deg").fail("an angle between 0 and 180 is expected");
+    if (camera.fov_y_deg == 0 || camera.fov_y_deg == 180)
+      node.at("fov_y_deg").fail("an angle between 0 and 180 is expected");
   }
   if (node.has("size")) {
     const auto size = node.at("size").items(2, 2);

@@ -32,7 +32,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     d[i][0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
   }
   return d[a.size()][b.size()];
@@ -51,7 +52,8 @@ std::string read_bytes(const std::filesystem::path& file, const std::string& sho
   if (!stream || error) throw core::InputError(shown, std::string("cannot be opened: ") + std::strerror(errno));
   std::string bytes(static_cast<std::size_t>(size), '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) throw core::InputError(shown, "cannot be read to its end");
+  if (stream.gcount() != static_cast<std::streamsize>(bytes.size()))
+    throw core::InputError(shown, "cannot be read to its end");
   return bytes;
 }
 

@@ -57,7 +57,7 @@ TEST(Check, finds_a_hole_and_a_flipped_wall) {
     { "polygon": [[1,0,0],[1,0,1],[1,1,1],[1,1,0]], "material": "grey", "name": "wall" } ] })");
   const Outcome check = interflect({"check", open_cube});
   EXPECT_EQ(check.status, 1);
-  EXPECT_TRUE(contains(check.out, "gap")) << check.out;
+  EXPECT_TRUE(contains(check.out, "open edge")) << check.out;
   EXPECT_TRUE(contains(check.out, "flipped")) << check.out;
 }
 

@@ -68,15 +68,15 @@ TEST(Occlusion, standard_errors_of_visibility_are_honest) {
   Room room = plates_with_screen(6, {.25, .25, .5});
   const auto scene = room.finish();
   const auto caster = raycast::make_ray_caster("brute", scene);
-  const VisibilitySampler sampler(room.patches, *caster, 5), reference(room.patches, *caster, 6);
+  const VisibilitySampler sampler(room.patches, *caster, 16, 5), reference(room.patches, *caster, 1024, 6);
   VisibilitySampler::Workspace workspace;
   double squares = 0;
   int pairs = 0, beyond_3 = 0;
   for (Index i = 0; i < 36; ++i)
     for (Index j = 36; j < 72; ++j) {
-      const SampledVisibility exact = reference(i, j, 32, workspace);
+      const SampledVisibility exact = reference(i, j, Effort::single, workspace);
       if (exact.visible == 0 || exact.visible == 1) continue;
-      const SampledVisibility v = sampler(i, j, 4, workspace);
+      const SampledVisibility v = sampler(i, j, Effort::single, workspace);
       const double z = (v.visible - exact.visible) / std::hypot(v.standard_error, exact.standard_error);
       squares += z * z;
       ++pairs;
@@ -126,13 +126,13 @@ TEST(Occlusion, what_a_shaft_proves_clear_no_ray_finds_blocked) {
   const auto caster = raycast::make_ray_caster("brute", scene);
   const ElementShapes shapes(room.patches);
   const Blockers blockers(scene, shapes.origin());
-  const VisibilitySampler sampler(room.patches, *caster, 9);
+  const VisibilitySampler sampler(room.patches, *caster, 1024, 9);
   VisibilitySampler::Workspace workspace;
   int clear = 0, needless = 0;
   for (Index i = 0; i < 36; ++i)
     for (Index j = 36; j < 72; ++j) {
       const bool proved = !blockers.any(geometry::Shaft(shapes[i].ring(), shapes[j].ring()));
-      const double visible = sampler(i, j, 32, workspace).visible;
+      const double visible = sampler(i, j, Effort::single, workspace).visible;
       EXPECT_TRUE(!proved || visible == 1.0) << i << " " << j;
       clear += proved;
       needless += !proved && visible == 1.0;

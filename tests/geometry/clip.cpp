@@ -76,7 +76,8 @@ TEST(Overlap, triangles_of_very_different_size_agree_either_way) {
     const auto at = [&](double x, double y) -> Vec3 { return x * axes.first + y * axes.second + 3 * n; };
     const TriangleCorners large{at(0, 0), at(100, 0), at(0, 100)};
     const double x = dice.in(-1, 1), y = dice.in(-1, 1);
-    const TriangleCorners small{at(x, y), at(x + 0.5, y), at(x, y + 0.5)};  // 40 000 times smaller, across the large one's corner
+    const TriangleCorners small{at(x, y), at(x + 0.5, y),
+                                at(x, y + 0.5)};  // 40 000 times smaller, across the large one's corner
     EXPECT_NEAR(overlap_area(large, small), overlap_area(small, large), 1e-12);
   }
 }

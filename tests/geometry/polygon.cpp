@@ -22,7 +22,8 @@ std::string defect_of(const PlanarPolygon& polygon) {
 }
 
 TEST(Polygon, area_of_a_rectangle_with_two_holes_is_that_of_the_rectangle_less_theirs) {
-  const PlanarPolygon polygon{rectangle(0, 0, 5, 4), {rectangle(1, 1, 2, 3), {{3, 1, 0}, {3, 3, 0}, {4, 3, 0}, {4, 1, 0}}}};
+  const PlanarPolygon polygon{rectangle(0, 0, 5, 4),
+                              {rectangle(1, 1, 2, 3), {{3, 1, 0}, {3, 3, 0}, {4, 3, 0}, {4, 1, 0}}}};
   EXPECT_EQ(area(polygon), 16);
   require_valid(polygon);
 }
@@ -62,9 +63,7 @@ TEST(Polygon, validity_does_not_depend_on_scale_or_place) {
   EXPECT_EQ(defect_of({far, {}}), "valid");
 }
 
-TEST(Polygon, slender_polygons_are_valid) {
-  EXPECT_EQ(defect_of({rectangle(0, 0, 1000, 0.001), {}}), "valid");
-}
+TEST(Polygon, slender_polygons_are_valid) { EXPECT_EQ(defect_of({rectangle(0, 0, 1000, 0.001), {}}), "valid"); }
 
 TEST(Polygon, each_defect_is_named) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
@@ -81,8 +80,10 @@ TEST(Polygon, each_defect_is_named) {
 }
 
 TEST(Polygon, an_outline_that_touches_itself_is_refused) {
-  EXPECT_NE(defect_of({{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}}, {}}).find("touches itself"), std::string::npos);
-  EXPECT_NE(defect_of({{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 2, 0}}, {}}).find("touches itself"), std::string::npos);  // a spike
+  EXPECT_NE(defect_of({{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}}, {}}).find("touches itself"),
+            std::string::npos);
+  EXPECT_NE(defect_of({{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 2, 0}}, {}}).find("touches itself"),
+            std::string::npos);  // a spike
 }
 
 TEST(Polygon, corners_in_the_middle_of_an_edge_are_allowed) {
@@ -92,7 +93,8 @@ TEST(Polygon, corners_in_the_middle_of_an_edge_are_allowed) {
 TEST(Polygon, holes_must_lie_inside_and_apart) {
   const Ring outer = rectangle(0, 0, 4, 4);
   EXPECT_EQ(defect_of({outer, {rectangle(5, 5, 6, 6)}}), "hole 0 is not inside the outline");
-  EXPECT_EQ(defect_of({outer, {rectangle(1, 1, 2, 2), rectangle(3, 3, 5, 3.5)}}), "the outline touches or crosses hole 1");
+  EXPECT_EQ(defect_of({outer, {rectangle(1, 1, 2, 2), rectangle(3, 3, 5, 3.5)}}),
+            "the outline touches or crosses hole 1");
   EXPECT_EQ(defect_of({outer, {rectangle(0, 1, 2, 2)}}), "the outline touches or crosses hole 0");
   EXPECT_EQ(defect_of({outer, {rectangle(1, 1, 2, 2), rectangle(2, 1, 3, 2)}}), "hole 0 touches or crosses hole 1");
   EXPECT_EQ(defect_of({outer, {rectangle(1, 1, 3, 3), rectangle(1.5, 1.5, 2, 2)}}), "hole 1 lies inside hole 0");

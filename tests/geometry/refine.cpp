@@ -14,7 +14,8 @@ using test::Dice;
 using test::rectangle;
 
 TriangleCorners corners(const IndexedTriangles& mesh, std::size_t t) {
-  return {mesh.vertices[mesh.triangles[t][0]], mesh.vertices[mesh.triangles[t][1]], mesh.vertices[mesh.triangles[t][2]]};
+  return {mesh.vertices[mesh.triangles[t][0]], mesh.vertices[mesh.triangles[t][1]],
+          mesh.vertices[mesh.triangles[t][2]]};
 }
 
 double smallest_sine(const TriangleCorners& t) {

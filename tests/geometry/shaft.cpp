@@ -58,7 +58,8 @@ TEST(Shaft, never_excludes_a_triangle_that_blocks) {
   for (const double size : {1e-6, 1.0, 1e6})
     for (int k = 0; k < 4000; ++k) {
       const Vec3 ca = size * dice.point(2), cb = size * dice.point(2);
-      const Ring a = random_patch(dice, ca, dice.direction(), size * dice.in(0.01, 1));  // facing or not, crossing or not
+      const Ring a =
+          random_patch(dice, ca, dice.direction(), size * dice.in(0.01, 1));  // facing or not, crossing or not
       const Ring b = random_patch(dice, cb, dice.direction(), size * dice.in(0.01, 1));
       const Vec3 c = ca + dice.in(0, 1) * (cb - ca) + size * dice.point(0.5);
       const double reach = size * dice.in(0.05, 2);
@@ -82,7 +83,9 @@ TEST(Shaft, is_the_convex_hull_for_patches_that_face_each_other) {
   Ring top = rectangle(0, 0, 1, 1, 1);
   std::reverse(top.begin(), top.end());
   const Shaft shaft(rectangle(0, 0, 1, 1), top);
-  const auto speck = [](const Vec3& x) { return std::array<Vec3, 3>{x, x + Vec3(1e-4, 0, 1e-5), x + Vec3(0, 1e-4, 1e-5)}; };
+  const auto speck = [](const Vec3& x) {
+    return std::array<Vec3, 3>{x, x + Vec3(1e-4, 0, 1e-5), x + Vec3(0, 1e-4, 1e-5)};
+  };
   Dice dice(51);
   for (int k = 0; k < 1000; ++k) {
     const Vec3 x = Vec3(0.5, 0.5, 0.5) + dice.point(1);
@@ -133,6 +136,8 @@ TEST(Shaft, a_blocker_that_barely_enters_counts) {
   EXPECT_TRUE(shaft.may_block(Vec3(1 - 1e-9, 0.5, 0.5), Vec3(2, 0.4, 0.5), Vec3(2, 0.6, 0.5)));
   EXPECT_TRUE(shaft.may_block(Vec3(0.2, 0.2, 1e-9), Vec3(0.8, 0.2, 1e-9), Vec3(0.2, 0.8, 1e-9)));
   EXPECT_FALSE(shaft.may_block(Vec3(0.2, 0.2, 0), Vec3(0.8, 0.2, 0), Vec3(0.2, 0.8, 0)));
+  EXPECT_FALSE(shaft.may_block(Box(Vec3(0, 0, -1), Vec3(1, 1, 0))));  // what lies in a patch's plane, or behind it
+  EXPECT_TRUE(shaft.may_block(Box(Vec3(0, 0, -1), Vec3(1, 1, 1e-9))));
 }
 
 TEST(Shaft, holds_far_from_the_origin) {

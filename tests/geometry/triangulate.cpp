@@ -73,7 +73,8 @@ TEST(Triangulate, invalid_polygons_are_refused) {
 }
 
 TEST(Triangulate, a_face_whose_hole_is_joined_by_a_double_edge_keeps_the_hole_empty) {
-  const Ring keyhole{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
+  const Ring keyhole{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
+                     {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
   EXPECT_THROW(require_valid({keyhole, {}}), Defect);
   const auto triangles = triangulate_face(keyhole);
   EXPECT_EQ(triangles.size(), 8u);

@@ -12,17 +12,21 @@ using test::Question;
 using test::whole;
 
 /// A random room that is not convex; every wall has the material.
-scene::Scene random_room(const scene::Material& material, std::vector<std::string> channels, const test::Placing& placing) {
+scene::Scene random_room(const scene::Material& material, std::vector<std::string> channels,
+                         const test::Placing& placing) {
   core::RandomNumbers numbers(8, 0, 0);
   const geometry::Ring floor = test::random_star(9, numbers);
   const Eigen::Matrix3d turn = test::random_rotation(numbers);
   SceneBuilder builder(std::move(channels));
-  test::add_prism_room(builder, floor, 0.7, builder.add_material(material), [&](const Vec3& x) { return placing(turn * x); });
-  builder.scene().cameras.push_back({"inside", placing(turn * Vec3(0, 0, 0.35)), placing(turn * Vec3(1, 0.2, 0.5)), turn * Vec3::UnitZ(), 60, 8, 6});
+  test::add_prism_room(builder, floor, 0.7, builder.add_material(material),
+                       [&](const Vec3& x) { return placing(turn * x); });
+  builder.scene().cameras.push_back(
+      {"inside", placing(turn * Vec3(0, 0, 0.35)), placing(turn * Vec3(1, 0.2, 0.5)), turn * Vec3::UnitZ(), 60, 8, 6});
   return builder.finish();
 }
 
-/// Every facet, all of them together, a point in the air for some hemispheres, and some pixels, of a room with irradiance H.
+/// Every facet, all of them together, a point in the air for some hemispheres, and some pixels, of a room with
+/// irradiance H.
 std::vector<Question> everything(const scene::Scene& scene, const Spectrum& H, const Spectrum& B) {
   std::vector<Question> questions;
   for (const scene::SurfaceId id : scene.surface_ids())
@@ -35,23 +39,27 @@ std::vector<Question> everything(const scene::Scene& scene, const Spectrum& H, c
   for (const Vec3& n : {Vec3(Vec3::UnitX()), Vec3(0, -0.6, 0.8), Vec3(-Vec3::UnitZ())})
     questions.push_back({measure::PointIrradiance{middle, n, {}}, H, "point"});
   const scene::Facet& facet = scene.facets.front();
-  questions.push_back({measure::PointIrradiance{(facet.corner[0] + facet.corner[1] + facet.corner[2]) / 3, facet.normal, facet.surface}, H, "on"});
+  questions.push_back(
+      {measure::PointIrradiance{(facet.corner[0] + facet.corner[1] + facet.corner[2]) / 3, facet.normal, facet.surface},
+       H, "on"});
   for (int x : {0, 5}) questions.push_back({measure::PixelRadiance{{0}, x, 3}, B * inv_pi, "pixel"});
   return questions;
 }
 
-// Furnace: E = 1 - rho on all walls gives B = 1 = H.  Four reflectances in four channels on the same paths: the contributions of
-// paths of k scatterings are (1 - rho) rho^k, and a sum that is right at four reflectances has them right one by one (a missing
-// length doubled elsewhere would show).
+// Furnace: E = 1 - rho on all walls gives B = 1 = H.  Four reflectances in four channels on the same paths: the
+// contributions of paths of k scatterings are (1 - rho) rho^k, and a sum that is right at four reflectances has them
+// right one by one (a missing length doubled elsewhere would show).
 TEST(PathTracer, finds_radiosity_one_in_a_furnace_of_any_reflectance) {
   scene::Material material;
   const std::array<double, 4> rho{0.2, 0.5, 0.8, 0.95};
-  for (int c = 0; c < 4; ++c) material.reflectance[c] = rho[static_cast<std::size_t>(c)], material.exitance[c] = 1 - material.reflectance[c];
+  for (int c = 0; c < 4; ++c)
+    material.reflectance[c] = rho[static_cast<std::size_t>(c)], material.exitance[c] = 1 - material.reflectance[c];
   const scene::Scene scene = random_room(material, {"a", "b", "c", "d"}, {});
   expect_agreement(scene, everything(scene, Spectrum(1), Spectrum(1)), {.samples = 8192}, 0.03);
 }
 
-// The same with one channel, whose own reflectance then rules the roulette, by both intersectors, at all scales and places.
+// The same with one channel, whose own reflectance then rules the roulette, by both intersectors, at all scales and
+// places.
 TEST(PathTracer, finds_radiosity_one_in_a_furnace_at_every_scale_and_place) {
   for (const auto& placing : test::placings)
     for (double rho : {0.2, 0.8}) {
@@ -61,25 +69,27 @@ TEST(PathTracer, finds_radiosity_one_in_a_furnace_at_every_scale_and_place) {
     }
 }
 
-// In a closed room of one reflectance all that is emitted is absorbed: (1 - rho) sum A H = sum A E, whatever its shape and
-// wherever the lamp.  The lamp is 1/26 000 of the walls.
+// In a closed room of one reflectance all that is emitted is absorbed: (1 - rho) sum A H = sum A E, whatever its shape
+// and wherever the lamp.  The lamp is 1/26 000 of the walls.
 TEST(PathTracer, finds_all_that_is_emitted_absorbed_by_the_walls_of_a_closed_room) {
   for (const char* intersector : {"embree", "brute"}) {
     SceneBuilder builder({"grey"});
-    const auto wall = builder.add_material(test::diffuse("wall", 0.6, 0)), lamp = builder.add_material(test::diffuse("lamp", 0.6, 50));
+    const auto wall = builder.add_material(test::diffuse("wall", 0.6, 0)),
+               lamp = builder.add_material(test::diffuse("lamp", 0.6, 50));
     builder.add_box("room", {Vec3(0, 0, 0), Vec3(10, 10, 3)}, wall, SceneBuilder::Facing::inward);
     builder.add_box("lamp", {Vec3(3, 4, 2), Vec3(3.05, 4.05, 2.03)}, lamp);
     builder.add_box("shelf", {Vec3(6, 6, 0), Vec3(7, 7, 2.5)}, wall);
     const scene::Scene scene = builder.finish();
     const double flux = scene.emitted_flux()[0];
     EXPECT_NEAR(flux, 50 * (2 * 0.05 * 0.05 + 4 * 0.05 * 0.03), 1e-12);
-    expect_agreement(scene, {{test::all_fronts(scene), grey(flux / 0.4), "all"}}, {.samples = 40'000, .intersector = intersector}, 0.03);
+    expect_agreement(scene, {{test::all_fronts(scene), grey(flux / 0.4), "all"}},
+                     {.samples = 40'000, .intersector = intersector}, 0.03);
   }
 }
 
-// Sphere, E = 1 + cos(theta), rho = 1/2: B = E + rho m with m = <E> / (1 - rho) = 2, so H = 2 everywhere.  Facets with chords of
-// length h see each other as the sphere's caps would up to O(h²): at level 3, h = 0.15, allow 0.15² = 2 %.  The mean over the
-// closed polyhedron is <E> / (1 - rho) exactly.
+// Sphere, E = 1 + cos(theta), rho = 1/2: B = E + rho m with m = <E> / (1 - rho) = 2, so H = 2 everywhere.  Facets with
+// chords of length h see each other as the sphere's caps would up to O(h²): at level 3, h = 0.15, allow 0.15² = 2 %.
+// The mean over the closed polyhedron is <E> / (1 - rho) exactly.
 TEST(PathTracer, finds_a_uniform_irradiance_in_a_sphere_of_any_emission) {
   SceneBuilder builder({"grey"});
   double flux = 0;
@@ -103,14 +113,17 @@ TEST(PathTracer, finds_the_irradiance_of_a_cube_with_one_emitting_face) {
   struct Case {
     double rho, floor, ceiling, wall, digits;
   };
-  for (const Case& c : {Case{0.5, 1.1043615, 0.1712161, 0.1811056, 5e-7}, Case{0.8, 1.587505, 0.660979, 0.687879, 2e-6}}) {
+  for (const Case& c :
+       {Case{0.5, 1.1043615, 0.1712161, 0.1811056, 5e-7}, Case{0.8, 1.587505, 0.660979, 0.687879, 2e-6}}) {
     SceneBuilder builder({"grey"});
-    const auto wall = builder.add_material(test::diffuse("wall", c.rho, 0)), lit = builder.add_material(test::diffuse("lit", c.rho, 1));
+    const auto wall = builder.add_material(test::diffuse("wall", c.rho, 0)),
+               lit = builder.add_material(test::diffuse("lit", c.rho, 1));
     builder.add_box("cube", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, wall, SceneBuilder::Facing::inward);
     builder.scene().surfaces[test::surface_named(builder.scene(), "cube/z-").value].material = lit;
     const scene::Scene scene = builder.finish();
-    std::vector<Question> questions{whole(scene, "cube/z-", (c.floor - 1) / c.rho), whole(scene, "cube/z+", c.ceiling / c.rho),
-                                    whole(scene, "cube/x-", c.wall / c.rho), whole(scene, "cube/y+", c.wall / c.rho)};
+    std::vector<Question> questions{whole(scene, "cube/z-", (c.floor - 1) / c.rho),
+                                    whole(scene, "cube/z+", c.ceiling / c.rho), whole(scene, "cube/x-", c.wall / c.rho),
+                                    whole(scene, "cube/y+", c.wall / c.rho)};
     for (Question& question : questions) question.slack = c.digits / c.rho;
     expect_agreement(scene, questions, {.samples = 400'000}, 0.01);
   }

@@ -41,8 +41,8 @@ std::vector<measure::Measurement> asked_of(const std::vector<test::Question>& qu
   return asked;
 }
 
-// 200 seeds: a 95 % interval holds the truth 181 .. 197 times with probability 0.99.  Four measurements in two modes, one family
-// alpha of 0.01: 176 .. 199 has 1e-4 .. 1e-3 for each (methods_montecarlo_core 2.8).
+// 200 seeds: a 95 % interval holds the truth 181 .. 197 times with probability 0.99.  Four measurements in two modes,
+// one family alpha of 0.01: 176 .. 199 has 1e-4 .. 1e-3 for each (methods_montecarlo_core 2.8).
 TEST(PathTracer, holds_the_truth_in_its_95_percent_intervals_in_95_percent_of_runs) {
   const scene::Scene scene = plates();
   const auto questions = plate_questions(scene);
@@ -78,14 +78,16 @@ TEST(PathTracer, gives_the_same_bits_for_any_number_of_threads) {
       for (unsigned threads : {2u, 3u, 8u}) {
         core::LocalRun run(7, threads);
         const auto found = PathTracer(settings).answer(scene, asked, run);
-        for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(same_bits(found[i], expected[i])) << threads << ' ' << i;
+        for (std::size_t i = 0; i < found.size(); ++i)
+          EXPECT_TRUE(same_bits(found[i], expected[i])) << threads << ' ' << i;
       }
       core::LocalRun other(8, 1);
       EXPECT_FALSE(same_bits(PathTracer(settings).answer(scene, asked, other)[0], expected[0]));
     }
 }
 
-// Between 0.7 and 1.05 of the target: n has a margin of 1.5 for the noise of the pilot's own s², and 1 / sqrt(1.5) = 0.82.
+// Between 0.7 and 1.05 of the target: n has a margin of 1.5 for the noise of the pilot's own s², and 1 / sqrt(1.5) =
+// 0.82.
 TEST(PathTracer, reaches_its_target_and_does_not_waste_samples) {
   const scene::Scene scene = plates();
   core::LocalRun run(3);
@@ -97,12 +99,13 @@ TEST(PathTracer, reaches_its_target_and_does_not_waste_samples) {
   }
   const auto capped = PathTracer({.target = 1e-6, .max_samples = 3000}).answer(scene, asked, run);
   for (const Estimate& e : capped) EXPECT_EQ(e.samples, 3000u);
-  for (const Estimate& e : PathTracer({.target = 10}).answer(scene, asked, run)) EXPECT_EQ(e.samples, 256u);
+  for (const Estimate& e : PathTracer({.target = 10}).answer(scene, asked, run)) EXPECT_EQ(e.samples, 4096u);
 }
 
 TEST(PathTracer, ends_in_scenes_without_light_and_calls_them_exactly_dark) {
   SceneBuilder builder({"grey"});
-  builder.add_box("room", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(test::diffuse("m", 0.9, 0)), SceneBuilder::Facing::inward);
+  builder.add_box("room", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(test::diffuse("m", 0.9, 0)),
+                  SceneBuilder::Facing::inward);
   const scene::Scene scene = builder.finish();
   core::LocalRun run;
   const std::vector<measure::Measurement> asked{test::all_fronts(scene)};
@@ -118,7 +121,8 @@ TEST(PathTracer, does_not_claim_to_know_that_nothing_arrives_where_nothing_was_f
   SceneBuilder builder({"grey", "blue"});
   scene::Material lamp = test::diffuse("lamp", 0, 5);
   builder.add_box("lit", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(lamp), SceneBuilder::Facing::inward);
-  builder.add_box("dark", {Vec3(2, 0, 0), Vec3(3, 1, 1)}, builder.add_material(test::diffuse("m", 0.5, 0)), SceneBuilder::Facing::inward);
+  builder.add_box("dark", {Vec3(2, 0, 0), Vec3(3, 1, 1)}, builder.add_material(test::diffuse("m", 0.5, 0)),
+                  SceneBuilder::Facing::inward);
   const scene::Scene scene = builder.finish();
   core::LocalRun run;
   const std::vector<measure::Measurement> asked{test::whole(scene, "dark/z-", 0).asked};
@@ -126,8 +130,8 @@ TEST(PathTracer, does_not_claim_to_know_that_nothing_arrives_where_nothing_was_f
   EXPECT_EQ(found[0].value[0], 0);
   EXPECT_DOUBLE_EQ(found[0].standard_error[0], 3 * 2 * 5 / 1000.0);  // area 1; two techniques
   EXPECT_EQ(found[0].standard_error[1], 0);                          // no blue light anywhere
-  // By a target: as many as bring 3 w / n to the floor, 1e-3 of Phi / sum A (1 - rho) = 30 / (6 + 3) in channel grey; the weights,
-  // one half each, cancel up to the dark channel's reflectance: sum A (1 - rho) = 6 + 6 (1 - 0.25).
+  // By a target: as many as bring 3 w / n to the floor, 1e-3 of Phi / sum A (1 - rho) = 30 / (6 + 3) in channel grey;
+  // the weights, one half each, cancel up to the dark channel's reflectance: sum A (1 - rho) = 6 + 6 (1 - 0.25).
   const auto aimed = PathTracer().answer(scene, asked, run);
   EXPECT_NEAR(static_cast<double>(aimed[0].samples), 3 * 0.5 * 10 / (1e-3 * 0.5 * 30 / 10.5), 2);
 }

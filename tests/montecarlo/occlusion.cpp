@@ -10,7 +10,9 @@ using test::at_point;
 using test::expect_agreement;
 using test::whole;
 
-scene::MaterialId material(SceneBuilder& builder, double rho, double E) { return builder.add_material(test::diffuse("m", rho, E)); }
+scene::MaterialId material(SceneBuilder& builder, double rho, double E) {
+  return builder.add_material(test::diffuse("m", rho, E));
+}
 
 geometry::PlanarPolygon square(double s, double z, bool up) {
   geometry::Ring ring{Vec3(-s, -s, z), Vec3(s, -s, z), Vec3(s, s, z), Vec3(-s, s, z)};
@@ -30,9 +32,11 @@ TEST(PathTracer, finds_the_penumbra_of_a_square_blocker) {
     const auto floor = builder.add_polygon("floor", square(2, 0, true), material(builder, 0, 0));
     const scene::Scene scene = builder.finish();
     std::vector<test::Question> questions{whole(scene, "floor", 0.021573468864)};
-    for (const Point& p : {Point{0, 0, 0}, Point{0.5, 0, 0}, Point{0.6, 0, .007557182366}, Point{0.75, 0, .017821902089}, Point{1, 0, .029443796377},
-                           Point{1.25, 0, .033623897844}, Point{1.5, 0, .032663265537}, Point{2, 0, .020278199912}, Point{1, 1, .029028221206},
-                           Point{.75, .75, .024093099852}, Point{1.25, .25, .032909077393}, Point{1.4, 1.4, .020596516308}}) {
+    for (const Point& p :
+         {Point{0, 0, 0}, Point{0.5, 0, 0}, Point{0.6, 0, .007557182366}, Point{0.75, 0, .017821902089},
+          Point{1, 0, .029443796377}, Point{1.25, 0, .033623897844}, Point{1.5, 0, .032663265537},
+          Point{2, 0, .020278199912}, Point{1, 1, .029028221206}, Point{.75, .75, .024093099852},
+          Point{1.25, .25, .032909077393}, Point{1.4, 1.4, .020596516308}}) {
       questions.push_back(at_point({p.x, p.y, 0}, Vec3::UnitZ(), p.F, floor));
       questions.push_back(at_point({p.x, p.y, 0}, Vec3::UnitZ(), p.F));  // the same point without a body
     }
@@ -43,8 +47,10 @@ TEST(PathTracer, finds_the_penumbra_of_a_square_blocker) {
 
 // V6, V7: parallel unit squares with a thin square half-way.
 TEST(PathTracer, finds_the_form_factor_of_squares_with_an_occluder_between) {
-  const geometry::PlanarPolygon quarter{{Vec3(0, 0, 0.5), Vec3(0.5, 0, 0.5), Vec3(0.5, 0.5, 0.5), Vec3(0, 0.5, 0.5)}, {}};
-  for (const auto& [occluder, F] : {std::pair{quarter, 0.149868671774}, std::pair{square(0.25, 0.5, true), 0.099506294599}}) {
+  const geometry::PlanarPolygon quarter{{Vec3(0, 0, 0.5), Vec3(0.5, 0, 0.5), Vec3(0.5, 0.5, 0.5), Vec3(0, 0.5, 0.5)},
+                                        {}};
+  for (const auto& [occluder, F] :
+       {std::pair{quarter, 0.149868671774}, std::pair{square(0.25, 0.5, true), 0.099506294599}}) {
     SceneBuilder builder({"grey"});
     builder.add_polygon("lower", square(0.5, 0, true), material(builder, 0, 1));
     builder.add_polygon("upper", square(0.5, 1, false), material(builder, 0, 0));
@@ -54,33 +60,37 @@ TEST(PathTracer, finds_the_form_factor_of_squares_with_an_occluder_between) {
   }
 }
 
-// V5: cubes of sides 3 and 1.  F(in, out) = 1, F(out, in) = 1/9 and F(out, out) = 8/9 exactly, since a convex body in a closed
-// convex room sees all of it.  Exact as long as one of the two radiosities is uniform and the other's reflection is not asked for:
+// V5: cubes of sides 3 and 1.  F(in, out) = 1, F(out, in) = 1/9 and F(out, out) = 8/9 exactly, since a convex body in a
+// closed convex room sees all of it.  Exact as long as one of the two radiosities is uniform and the other's reflection
+// is not asked for:
 //   out emits 1, black:  H(in) = 1 everywhere; with B(in) = rho uniform, mean H(out) = 8/9 + rho / 9;
 //   in emits 1, out black:  mean H(out) = 1/9, H(in) = 0.
 TEST(PathTracer, finds_the_exchange_of_concentric_cubes) {
   for (const double rho : {0.0, 0.5, 0.9}) {
     SceneBuilder builder({"grey"});
-    builder.add_box("out", {Vec3(-1.5, -1.5, -1.5), Vec3(1.5, 1.5, 1.5)}, material(builder, 0, 1), SceneBuilder::Facing::inward);
+    builder.add_box("out", {Vec3(-1.5, -1.5, -1.5), Vec3(1.5, 1.5, 1.5)}, material(builder, 0, 1),
+                    SceneBuilder::Facing::inward);
     builder.add_box("in", {Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)}, material(builder, rho, 0));
     const scene::Scene scene = builder.finish();
     measure::Flux out;
     for (const scene::SurfaceId id : scene.surface_ids())
       if (scene.surface(id).name.starts_with("out"))
         for (const auto& patch : measure::patches_of(scene, id, scene::Side::front)) out.through.push_back(patch);
-    expect_agreement(scene, {{out, test::grey(54 * (8 + rho) / 9), "out"}, whole(scene, "in/x-", 1), whole(scene, "in/z+", 1)},
+    expect_agreement(scene,
+                     {{out, test::grey(54 * (8 + rho) / 9), "out"}, whole(scene, "in/x-", 1), whole(scene, "in/z+", 1)},
                      {.samples = 50'000}, 0.01);
   }
   SceneBuilder builder({"grey"});
-  builder.add_box("out", {Vec3(-1.5, -1.5, -1.5), Vec3(1.5, 1.5, 1.5)}, material(builder, 0, 0), SceneBuilder::Facing::inward);
+  builder.add_box("out", {Vec3(-1.5, -1.5, -1.5), Vec3(1.5, 1.5, 1.5)}, material(builder, 0, 0),
+                  SceneBuilder::Facing::inward);
   builder.add_box("in", {Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)}, material(builder, 0.5, 1));
   const scene::Scene scene = builder.finish();
   expect_agreement(scene, {whole(scene, "out/x+", 1.0 / 9), whole(scene, "in/x-", 0)}, {.samples = 100'000}, 0.01);
 }
 
-// Truths 2.2: concentric spheres, the inner emits 1, radii 1 and 2 (k = 1/4), rho 1/2: B1 = 10/9, B2 = 2/9, so H1 = 2/9 and
-// H2 = 4/9.  The outer sphere sees itself past the inner.  Facets of chord h = 0.3 (level 2) are off by O(h²/12) = 1 % in area and
-// in angle: 2 % allowed.
+// Truths 2.2: concentric spheres, the inner emits 1, radii 1 and 2 (k = 1/4), rho 1/2: B1 = 10/9, B2 = 2/9, so H1 = 2/9
+// and H2 = 4/9.  The outer sphere sees itself past the inner.  Facets of chord h = 0.3 (level 2) are off by O(h²/12) =
+// 1 % in area and in angle: 2 % allowed.
 TEST(PathTracer, finds_the_irradiance_of_concentric_spheres) {
   SceneBuilder builder({"grey"});
   builder.add_facets("out", test::icosphere(3, 2, true), material(builder, 0.5, 0));

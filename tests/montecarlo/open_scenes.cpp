@@ -13,14 +13,15 @@ using test::whole;
 
 /// A square of half side s about (0, 0, z), facing up or down.
 geometry::PlanarPolygon square(double s, double z, bool up, const test::Placing& placing = {}) {
-  geometry::Ring ring{placing(Vec3(-s, -s, z)), placing(Vec3(s, -s, z)), placing(Vec3(s, s, z)), placing(Vec3(-s, s, z))};
+  geometry::Ring ring{placing(Vec3(-s, -s, z)), placing(Vec3(s, -s, z)), placing(Vec3(s, s, z)),
+                      placing(Vec3(-s, s, z))};
   if (!up) std::reverse(ring.begin(), ring.end());
   return {ring, {}};
 }
 
 /// Unit squares a distance 1 apart: "lower" emits 1.
-scene::Scene plates(const scene::Material& lower, const scene::Material& upper, bool upper_faces_down, std::vector<std::string> channels = {"grey"},
-                    const test::Placing& placing = {}) {
+scene::Scene plates(const scene::Material& lower, const scene::Material& upper, bool upper_faces_down,
+                    std::vector<std::string> channels = {"grey"}, const test::Placing& placing = {}) {
   SceneBuilder builder(std::move(channels));
   builder.add_polygon("lower", square(0.5, 0, true, placing), builder.add_material(lower));
   builder.add_polygon("upper", square(0.5, 1, !upper_faces_down, placing), builder.add_material(upper));
@@ -29,17 +30,18 @@ scene::Scene plates(const scene::Material& lower, const scene::Material& upper, 
   return builder.finish();
 }
 
-constexpr double F12 = 0.199824895698;                                   // V1
-constexpr double B1_mean = 1.010218055060, B2_mean = 0.100947189239;     // rho .5, .5
+constexpr double F12 = 0.199824895698;                                // V1
+constexpr double B1_mean = 1.010218055060, B2_mean = 0.100947189239;  // rho .5, .5
 constexpr double B2_centre = 0.120976802029, B2_quarter = 0.104998409669;
-constexpr double C1_mean = 1.008568960685, C2_mean = 0.141092268875;     // rho .3, .7
+constexpr double C1_mean = 1.008568960685, C2_mean = 0.141092268875;  // rho .3, .7
 
 TEST(PathTracer, finds_the_irradiance_of_parallel_squares_at_every_scale_and_place) {
   for (const auto& placing : test::placings) {
     const scene::Scene scene = plates(test::diffuse("l", 0.5, 1), test::diffuse("u", 0.5, 0), true, {"grey"}, placing);
     const auto upper = test::surface_named(scene, "upper");
     const std::vector<Question> questions{
-        whole(scene, "lower", (B1_mean - 1) / 0.5), whole(scene, "upper", B2_mean / 0.5),
+        whole(scene, "lower", (B1_mean - 1) / 0.5),
+        whole(scene, "upper", B2_mean / 0.5),
         at_point(placing(Vec3(0, 0, 1)), -Vec3::UnitZ(), B2_centre / 0.5, upper),
         at_point(placing(Vec3(0.25, 0.25, 1)), -Vec3::UnitZ(), B2_quarter / 0.5, upper),
         // The radiance of a pixel so small (1e-3 of the gap) that the radiosity in it is that of the centre, to 1e-6.
@@ -59,8 +61,9 @@ TEST(PathTracer, keeps_the_channels_apart) {
   H1[0] = (B1_mean - 1) / 0.5, H2[0] = B2_mean / 0.5;
   H1[1] = 10 * (C1_mean - 1) / 0.3, H2[1] = 10 * C2_mean / 0.7;
   H2[2] = 0.1 * F12;  // nothing returns from a black plate
-  // What comes back to it is rho_2 times the light path's square: int F(y)^2 dA over the upper plate, by symmetry of the pair.
-  // (B1_mean - 1) has no closed form for it here, so the lower plate is asked in the first two channels' scene alone.
+  // What comes back to it is rho_2 times the light path's square: int F(y)^2 dA over the upper plate, by symmetry of
+  // the pair. (B1_mean - 1) has no closed form for it here, so the lower plate is asked in the first two channels'
+  // scene alone.
   const std::vector<Question> upper_only{whole(scene, "upper", H2)};
   expect_agreement(scene, upper_only, {.samples = 200'000}, 0.01);
   const scene::Scene two = [&] {
@@ -79,12 +82,15 @@ TEST(PathTracer, reflects_from_the_back_of_a_two_sided_plate_as_from_a_front) {
 }
 
 TEST(PathTracer, takes_the_back_of_a_one_sided_plate_as_black_and_dark) {
-  const scene::Scene scene = plates(test::diffuse("l", 0.5, 1), test::diffuse("u", 0.5, 7), false);  // its front shines upwards
-  expect_agreement(scene, {whole(scene, "lower", 0), whole(scene, "upper", F12, scene::Side::back), whole(scene, "upper", 0)},
+  const scene::Scene scene =
+      plates(test::diffuse("l", 0.5, 1), test::diffuse("u", 0.5, 7), false);  // its front shines upwards
+  expect_agreement(scene,
+                   {whole(scene, "lower", 0), whole(scene, "upper", F12, scene::Side::back), whole(scene, "upper", 0)},
                    {.samples = 200'000}, 0.01);
 }
 
-/// Configuration factor from a point to a rectangle [x0, x1] x [y0, y1] in a parallel plane at distance h, by its four corners.
+/// Configuration factor from a point to a rectangle [x0, x1] x [y0, y1] in a parallel plane at distance h, by its four
+/// corners.
 double to_rectangle(double x0, double x1, double y0, double y1, double h) {
   const auto corner = [h](double x, double y) {
     const double a = std::hypot(h, x), b = std::hypot(h, y);
@@ -105,7 +111,8 @@ TEST(PathTracer, finds_form_factors_both_ways_between_areas_of_one_to_400) {
     }
   for (const bool small_emits : {true, false}) {
     SceneBuilder builder({"grey"});
-    const auto lit = builder.add_material(test::diffuse("lit", 0, 1)), black = builder.add_material(test::diffuse("black", 0, 0));
+    const auto lit = builder.add_material(test::diffuse("lit", 0, 1)),
+               black = builder.add_material(test::diffuse("black", 0, 0));
     builder.add_polygon("small", square(0.025, 0, true), small_emits ? lit : black);
     builder.add_polygon("large", square(0.5, 1, false), small_emits ? black : lit);
     const scene::Scene scene = builder.finish();
@@ -115,11 +122,14 @@ TEST(PathTracer, finds_form_factors_both_ways_between_areas_of_one_to_400) {
   }
 }
 
-// Perpendicular unit squares with a common edge (V2): the two techniques meet at r = 0, where each alone is at its worst.
+// Perpendicular unit squares with a common edge (V2): the two techniques meet at r = 0, where each alone is at its
+// worst.
 TEST(PathTracer, finds_the_form_factor_of_squares_that_share_an_edge) {
   SceneBuilder builder({"grey"});
-  builder.add_polygon("floor", {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}, {}}, builder.add_material(test::diffuse("black", 0, 0)));
-  builder.add_polygon("wall", {{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(0, 1, 1), Vec3(0, 0, 1)}, {}}, builder.add_material(test::diffuse("lit", 0, 1)));
+  builder.add_polygon("floor", {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}, {}},
+                      builder.add_material(test::diffuse("black", 0, 0)));
+  builder.add_polygon("wall", {{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(0, 1, 1), Vec3(0, 0, 1)}, {}},
+                      builder.add_material(test::diffuse("lit", 0, 1)));
   const scene::Scene scene = builder.finish();
   expect_agreement(scene, {whole(scene, "floor", 0.200043776075)}, {.samples = 1'000'000}, 0.002);
 }

@@ -14,7 +14,9 @@ using scene::SceneBuilder;
 scene::Scene lit_cube(double rho, double everywhere, double floor, int width, int height) {
   SceneBuilder builder({"r", "g"});
   scene::Material wall, lit;
-  for (int c = 0; c < 2; ++c) wall.reflectance[c] = lit.reflectance[c] = rho, wall.exitance[c] = (c + 1) * everywhere, lit.exitance[c] = (c + 1) * floor;
+  for (int c = 0; c < 2; ++c)
+    wall.reflectance[c] = lit.reflectance[c] = rho, wall.exitance[c] = (c + 1) * everywhere,
+    lit.exitance[c] = (c + 1) * floor;
   builder.add_box("cube", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(wall), SceneBuilder::Facing::inward);
   builder.scene().surfaces[test::surface_named(builder.scene(), "cube/z-").value].material = builder.add_material(lit);
   builder.scene().cameras.push_back({"eye", Vec3(0.5, 0.1, 0.5), Vec3(0.5, 1, 0.4), Vec3::UnitZ(), 80, width, height});
@@ -43,7 +45,8 @@ TEST(Render, shows_a_furnace_as_one_even_radiance) {
   EXPECT_LT(std::abs(sum / std::sqrt(24.0 * 16)), limit);
 }
 
-// The picture and the measurement are the same number by two roads: pixel (x, y) of the image is what PixelRadiance answers.
+// The picture and the measurement are the same number by two roads: pixel (x, y) of the image is what PixelRadiance
+// answers.
 TEST(Render, agrees_with_the_measurement_of_single_pixels) {
   const scene::Scene scene = lit_cube(0.5, 0, 1, 12, 10);
   core::LocalRun run;
@@ -63,6 +66,24 @@ TEST(Render, agrees_with_the_measurement_of_single_pixels) {
   // The floor's emission is seen in the lower part of the picture alone.
   EXPECT_GT(found.radiance.at(6, 9, 0), 0.9 * inv_pi);
   EXPECT_LT(found.radiance.at(6, 2, 0), 0.5 * inv_pi);
+}
+
+// A pixel is the mean over its area on the image plane.  Frames of 90 degrees, one pixel and then 2 x 2, onto a black
+// scene with a lamp of radiance 1 on the left quarter of the upper half: 1/8 of the whole frame, 1/2 of the upper left
+// pixel.
+TEST(Render, averages_a_pixel_over_its_area_on_the_image_plane) {
+  SceneBuilder builder({"grey"});
+  builder.add_polygon("lamp", {{Vec3(-1, 1, -1), Vec3(-1, 0, -1), Vec3(-0.5, 0, -1), Vec3(-0.5, 1, -1)}, {}},
+                      builder.add_material(test::diffuse("lamp", 0, pi)));
+  builder.scene().cameras.push_back({"one", Vec3(0, 0, 0), -Vec3::UnitZ(), Vec3::UnitY(), 90, 1, 1});
+  builder.scene().cameras.push_back({"four", Vec3(0, 0, 0), -Vec3::UnitZ(), Vec3::UnitY(), 90, 2, 2});
+  const scene::Scene scene = builder.finish();
+  const auto pixel = [](std::uint32_t camera, int x, int y, double part) {
+    return test::Question{measure::PixelRadiance{{camera}, x, y}, test::grey(part), "pixel"};
+  };
+  test::expect_agreement(scene,
+                         {pixel(0, 0, 0, 1.0 / 8), pixel(1, 0, 0, 1.0 / 2), pixel(1, 1, 0, 0), pixel(1, 0, 1, 0)},
+                         {.samples = 100'000}, 0.02);
 }
 
 TEST(Render, gives_the_same_bits_for_any_number_of_threads) {

@@ -17,7 +17,8 @@ TEST(Statistics, the_critical_z_is_that_of_sidak) {
 TEST(Statistics, agreement_with_a_wrong_truth_is_not_found) {
   static scene::Scene scene;
   scene::SceneBuilder builder({"grey"});
-  builder.add_box("room", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(diffuse("grey", 0.5, 0.5)), scene::SceneBuilder::Facing::inward);
+  builder.add_box("room", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(diffuse("grey", 0.5, 0.5)),
+                  scene::SceneBuilder::Facing::inward);
   scene = builder.finish();
   EXPECT_FATAL_FAILURE(
       {

@@ -40,10 +40,10 @@ inline Spectrum grey(double value) {
 /// Family alpha of every test here; the seed is fixed, so a test either always passes or never.
 inline constexpr double alpha = 1e-3;
 
-/// Every channel of every answer within the critical number of its own standard errors.  A standard error above `largest_error`
-/// (relative to the truth) would prove nothing, and fails.
-inline void expect_agreement(const scene::Scene& scene, const std::vector<Question>& questions, montecarlo::PathTracerSettings settings,
-                             double largest_error, std::uint64_t seed = 1) {
+/// Every channel of every answer within the critical number of its own standard errors.  A standard error above
+/// `largest_error` (relative to the truth) would prove nothing, and fails.
+inline void expect_agreement(const scene::Scene& scene, const std::vector<Question>& questions,
+                             montecarlo::PathTracerSettings settings, double largest_error, std::uint64_t seed = 1) {
   std::vector<measure::Measurement> asked;
   for (const Question& question : questions) asked.push_back(question.asked);
   core::LocalRun run(seed);
@@ -51,7 +51,8 @@ inline void expect_agreement(const scene::Scene& scene, const std::vector<Questi
   const double limit = critical_z(alpha, questions.size() * static_cast<std::size_t>(scene.channel_count()));
   for (std::size_t i = 0; i < found.size(); ++i)
     for (int c = 0; c < scene.channel_count(); ++c) {
-      const double truth = questions[i].truth[c], error = std::abs(found[i].value[c] - truth), se = found[i].standard_error[c];
+      const double truth = questions[i].truth[c], error = std::abs(found[i].value[c] - truth),
+                   se = found[i].standard_error[c];
       EXPECT_LE(error, questions[i].slack + limit * se + 1e-12 * truth)
           << questions[i].name << " channel " << c << ": " << found[i].value[c] << " +- " << se << ", truth " << truth;
       EXPECT_TRUE(truth == 0 || se < largest_error * truth) << questions[i].name << " channel " << c << ": " << se;
@@ -72,11 +73,13 @@ inline Question whole(const scene::Scene& scene, const std::string& name, const 
   const scene::SurfaceId id = surface_named(scene, name);
   return {measure::Flux{measure::patches_of(scene, id, side)}, scene.area(id) * mean_irradiance, name};
 }
-inline Question whole(const scene::Scene& scene, const std::string& name, double mean_irradiance, scene::Side side = scene::Side::front) {
+inline Question whole(const scene::Scene& scene, const std::string& name, double mean_irradiance,
+                      scene::Side side = scene::Side::front) {
   return whole(scene, name, grey(mean_irradiance), side);
 }
 
-inline Question at_point(const Vec3& position, const Vec3& normal, double irradiance, std::optional<scene::SurfaceId> on = {}) {
+inline Question at_point(const Vec3& position, const Vec3& normal, double irradiance,
+                         std::optional<scene::SurfaceId> on = {}) {
   return {measure::PointIrradiance{position, normal, on}, grey(irradiance), "point"};
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double almost_one = 1 - 0x1p-53;
 
-/// Upper quantile of chi-squared by Wilson and Hilferty's cube, z = 4.9 (one-sided 5e-7); to about 1 % for 15 cells or more.
+/// Upper quantile of chi-squared by Wilson and Hilferty's cube, z = 4.9 (one-sided 5e-7); to about 1 % for 15 cells or
+/// more.
 double chi2_limit(int degrees) {
   const double a = 2.0 / (9 * degrees);
   return degrees * std::pow(1 - a + 4.9 * std::sqrt(a), 3);
@@ -24,8 +25,9 @@ double chi2(const std::vector<int>& counts, double expected) {
 
 TEST(Warps, frames_are_orthonormal_and_right_handed_about_every_normal) {
   core::RandomNumbers numbers(1, 0, 0);
-  std::vector<Vec3> normals{Vec3::UnitZ(), -Vec3::UnitZ(), Vec3::UnitX(), Vec3(1e-9, 0, -1).normalized(), Vec3(0, 1e-300, -1)};
-  for (int i = 0; i < 1000; ++i) normals.push_back(test::cosine_about(Vec3::UnitX(), numbers.next(), numbers.next()));
+  std::vector<Vec3> normals{Vec3::UnitZ(), -Vec3::UnitZ(), Vec3::UnitX(), Vec3(1e-9, 0, -1).normalized(),
+                            Vec3(0, 1e-300, -1)};
+  for (int i = 0; i < 1000; ++i) normals.push_back(test::cosine_about(Vec3::UnitX(), numbers));
   for (const Vec3& n : normals) {
     const Frame frame = frame_around(n);
     EXPECT_NEAR(frame.s.norm(), 1, 1e-14);
@@ -43,7 +45,8 @@ TEST(Warps, directions_are_cosine_distributed) {
     const double u = numbers.next(), v = numbers.next();
     const Vec3 d = cosine_hemisphere(u, v);
     const double azimuth = std::atan2(d.y(), d.x()) / (2 * pi) + 0.5;
-    const int a = std::min(side - 1, static_cast<int>(d.z() * d.z() * side)), b = std::min(side - 1, static_cast<int>(azimuth * side));
+    const int a = std::min(side - 1, static_cast<int>(d.z() * d.z() * side)),
+              b = std::min(side - 1, static_cast<int>(azimuth * side));
     ++cells[static_cast<std::size_t>(a * side + b)];
   }
   EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
@@ -59,8 +62,8 @@ TEST(Warps, directions_have_length_one_and_never_lie_in_the_plane) {
     }
 }
 
-// The area fraction that a line parallel to a side cuts off a triangle is the square of its distance from the corner, so both
-// s² (s: distance from corner a) and the place along the cut are uniform.
+// The area fraction that a line parallel to a side cuts off a triangle is the square of its distance from the corner,
+// so both s² (s: distance from corner a) and the place along the cut are uniform.
 TEST(Warps, points_of_a_triangle_are_uniform_by_area) {
   constexpr int n = 400'000, side = 10;
   const Vec3 a(1, 2, 3), b(4, 2, 1), c(-1, 5, 2);
@@ -70,16 +73,19 @@ TEST(Warps, points_of_a_triangle_are_uniform_by_area) {
     const double u = numbers.next(), v = numbers.next();
     const Vec3 p = triangle_point(a, b, c, u, v);
     const Vec3 normal = (b - a).cross(c - a);
-    const double in_b = (p - a).cross(c - a).dot(normal) / normal.squaredNorm(), in_c = (b - a).cross(p - a).dot(normal) / normal.squaredNorm();
+    const double in_b = (p - a).cross(c - a).dot(normal) / normal.squaredNorm(),
+                 in_c = (b - a).cross(p - a).dot(normal) / normal.squaredNorm();
     const double s = in_b + in_c;
     ASSERT_TRUE(in_b >= -1e-14 && in_c >= -1e-14 && s <= 1 + 1e-14);
-    const int row = std::min(side - 1, static_cast<int>(s * s * side)), column = std::clamp(static_cast<int>(in_c / s * side), 0, side - 1);
+    const int row = std::min(side - 1, static_cast<int>(s * s * side)),
+              column = std::clamp(static_cast<int>(in_c / s * side), 0, side - 1);
     ++cells[static_cast<std::size_t>(row * side + column)];
   }
   EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
 }
 
-// A trapezium between y = 0 (length 3) and y = 1 (length 1): mean height 5/12, and each half of it gets its share of points.
+// A trapezium between y = 0 (length 3) and y = 1 (length 1): mean height 5/12, and each half of it gets its share of
+// points.
 TEST(Warps, points_of_a_quad_are_uniform_by_area) {
   const std::array<Vec3, 4> ring{Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
   const auto patch = scene::make_patch({}, scene::Side::front, ring);
@@ -91,7 +97,8 @@ TEST(Warps, points_of_a_quad_are_uniform_by_area) {
     const Vec3 p = patch_point(patch, u, v);
     const double width = 3 - 2 * p.y(), below = (3 * p.y() - p.y() * p.y()) / 2;  // area fraction below y
     ASSERT_TRUE(p.y() >= 0 && p.y() <= 1 && p.x() >= 0 && p.x() <= width + 1e-14);
-    const int row = std::min(side - 1, static_cast<int>(below * side)), column = std::min(side - 1, static_cast<int>(p.x() / width * side));
+    const int row = std::min(side - 1, static_cast<int>(below * side)),
+              column = std::min(side - 1, static_cast<int>(p.x() / width * side));
     ++cells[static_cast<std::size_t>(row * side + column)];
   }
   EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));

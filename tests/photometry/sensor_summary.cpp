@@ -13,7 +13,7 @@ Estimate estimate(double value, double bound, double noise) {
 
 TEST(SensorSummary, statistics_are_those_of_the_weighted_values) {
   scene::Scene scene;
-  scene.weights = Spectrum::zero();
+  scene.channels = {"y"};
   scene.weights[0] = 2;
   const measure::PointIrradiance nowhere{Vec3::Zero(), Vec3::UnitZ(), {}};
   const std::vector<measure::SensorPoint> points{{"desk", 0, nowhere}, {"wall", 0, nowhere}, {"desk", 1, nowhere}, {"desk", 2, nowhere}};

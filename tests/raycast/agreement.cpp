@@ -15,9 +15,9 @@ scene::Scene soup(int triangles, std::uint64_t seed, const test::Placing& placin
   std::vector<test::TriangleCorners> corners;
   for (int i = 0; i < triangles; ++i) {
     const double size = 0.02 + 0.4 * numbers.next() * numbers.next();
-    const Vec3 centre(numbers.next(), numbers.next(), numbers.next());
+    const Vec3 centre = test::random_point(numbers);
     test::TriangleCorners triangle;
-    for (Vec3& corner : triangle) corner = placing(centre + size * Vec3(numbers.next() - 0.5, numbers.next() - 0.5, numbers.next() - 0.5));
+    for (Vec3& corner : triangle) corner = placing(centre + size * (test::random_point(numbers) - Vec3(0.5, 0.5, 0.5)));
     corners.push_back(triangle);
   }
   builder.add_facets("soup", corners, builder.add_material(test::diffuse("grey", 0.5, 0)));
@@ -34,12 +34,14 @@ double distance_to_edge(const Vec3& o, const Vec3& d, const Vec3& a, const Vec3&
 
 double distance_to_edges(const Vec3& o, const Vec3& d, const scene::Facet& facet) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) nearest = std::min(nearest, distance_to_edge(o, d, facet.corner[k], facet.corner[(k + 1) % 3]));
+  for (std::size_t k = 0; k < 3; ++k)
+    nearest = std::min(nearest, distance_to_edge(o, d, facet.corner[k], facet.corner[(k + 1) % 3]));
   return nearest;
 }
 
-/// May single precision decide otherwise?  A facet met within 1e-5 of its edge; or two facets, both met well inside, whose
-/// crossing points lie within 1e-5 of each other measured across them (they intersect there); or an origin within 1e-5 of a facet.
+/// May single precision decide otherwise?  A facet met within 1e-5 of its edge; or two facets, both met well inside,
+/// whose crossing points lie within 1e-5 of each other measured across them (they intersect there); or an origin within
+/// 1e-5 of a facet.
 bool undecided(const scene::Scene& scene, double unit, const Ray& ray, const std::optional<scene::SurfacePoint>& a,
                const std::optional<scene::SurfacePoint>& b) {
   const double near = 1e-5 * unit;
@@ -56,7 +58,7 @@ bool undecided(const scene::Scene& scene, double unit, const Ray& ray, const std
 
 Ray random_ray(std::uint64_t i, const test::Placing& placing) {
   core::RandomNumbers numbers(11, 1, i);
-  const Vec3 from(numbers.next(), numbers.next(), numbers.next()), to(numbers.next(), numbers.next(), numbers.next());
+  const Vec3 from = test::random_point(numbers), to = test::random_point(numbers);
   return {placing(from), (to - from).normalized()};
 }
 
@@ -72,9 +74,10 @@ TEST(RayCasters, agree_on_random_triangles_but_for_rays_within_1e_minus_5_of_an_
       if (a.has_value() == b.has_value() && (!a || a->facet == b->facet)) {
         if (!a) continue;
         EXPECT_EQ(a->side, b->side);
-        // Along the ray single precision is off by 1e-6 of the scene over the cosine of incidence.
+        // Single precision is off by 1e-6 of the scene over the cosine of incidence along the ray; across a sliver,
+        // whose barycentric coordinates are ill-conditioned, by ten times as much.
         const double cosine = std::abs(ray.direction.dot(b->normal));
-        EXPECT_LT((a->position - b->position).norm() * cosine, 1e-6 * placing.scale);
+        EXPECT_LT((a->position - b->position).norm() * cosine, 1e-5 * placing.scale);
         continue;
       }
       ++different;
@@ -92,7 +95,7 @@ TEST(RayCasters, agree_on_occlusion_one_by_one_and_eight_by_eight) {
     std::vector<Segment> segments;
     for (std::uint64_t i = 0; i < 10'003; ++i) {  // not a multiple of eight
       core::RandomNumbers numbers(13, 1, i);
-      const Vec3 from(numbers.next(), numbers.next(), numbers.next()), to(numbers.next(), numbers.next(), numbers.next());
+      const Vec3 from = test::random_point(numbers), to = test::random_point(numbers);
       segments.push_back({placing(from), placing(from + 0.3 * (to - from))});
     }
     std::vector<std::uint8_t> by_eight(segments.size(), 7), by_brute(segments.size(), 7);
@@ -131,7 +134,8 @@ TEST(RayCasters, call_a_segment_occluded_where_the_closest_hit_is_nearer_than_it
       const auto hit = caster->closest(ray);
       const double distance = hit ? (hit->position - ray.origin).norm() : 2;
       if (std::abs(distance - length) < 1e-5) continue;  // single precision
-      EXPECT_EQ(caster->occluded(Segment{ray.origin, ray.origin + length * ray.direction}), distance < length) << name << i;
+      EXPECT_EQ(caster->occluded(Segment{ray.origin, ray.origin + length * ray.direction}), distance < length)
+          << name << i;
       occluded += distance < length;
     }
     EXPECT_GT(occluded, 2000);

@@ -18,9 +18,8 @@ Escapes escapes(const scene::Scene& scene, const RayCaster& caster, std::uint64_
   for (std::uint64_t i = 0; i < rays; ++i) {
     core::RandomNumbers numbers(17, 2, i);
     const scene::Facet& facet = scene.facets[i % scene.facets.size()];
-    const Vec3 origin = test::point_on(facet, numbers.next(), numbers.next());
-    const double u = numbers.next(), v = numbers.next();
-    const auto hit = caster.closest({origin, test::cosine_about(facet.normal, u, v), facet.normal});
+    const Vec3 origin = test::point_on(facet, numbers);
+    const auto hit = caster.closest({origin, test::cosine_about(facet.normal, numbers), facet.normal});
     found.nothing += !hit;
     found.back += hit && hit->side == scene::Side::back;
   }
@@ -84,9 +83,9 @@ TEST(RayCasters, lose_no_ray_that_is_aimed_at_corners_and_edges) {
   }
 }
 
-// Where two walls meet at an acute angle, an origin nearer than offset / tan(angle) to the edge is lifted through the other
-// wall: the documented price of the one offset.  On a wall of width 1 that is this part of the rays; the count is Poisson's,
-// and 5 standard deviations are exceeded with probability 3e-7 in the limit of many.
+// Where two walls meet at an acute angle, an origin nearer than offset / tan(angle) to the edge is lifted through the
+// other wall: the documented price of the one offset.  On a wall of width 1 that is this part of the rays; the count is
+// Poisson's, and 5 standard deviations are exceeded with probability 3e-7 in the limit of many.
 TEST(RayCasters, lose_in_an_acute_corner_no_more_than_the_offset_over_the_tangent) {
   const double angle = pi / 9;
   scene::SceneBuilder builder({"grey"});
@@ -98,22 +97,23 @@ TEST(RayCasters, lose_in_an_acute_corner_no_more_than_the_offset_over_the_tangen
   int lost = 0;
   for (std::uint64_t i = 0; i < rays; ++i) {
     core::RandomNumbers numbers(19, 2, i);
-    const Vec3 origin(numbers.next(), 0, numbers.next());
-    const double u = numbers.next(), v = numbers.next();
-    const auto hit = caster->closest({origin, test::cosine_about(Vec3::UnitY(), u, v), Vec3::UnitY()});
+    const double along = numbers.next(), height = numbers.next();
+    const Vec3 origin(along, 0, height);
+    const auto hit = caster->closest({origin, test::cosine_about(Vec3::UnitY(), numbers), Vec3::UnitY()});
     lost += !hit || hit->side == scene::Side::back;
   }
   const double expected = rays * caster->offset() / std::tan(angle);
   EXPECT_LT(lost, expected + 5 * std::sqrt(expected));
 }
 
-// A box that stands on the floor touches it in a plane.  Points of the floor under the box see only the box's inside, up to
-// the very edge, and points outside never see under it.
+// A box that stands on the floor touches it in a plane.  Points of the floor under the box see only the box's inside,
+// up to the very edge, and points outside never see under it.
 TEST(RayCasters, let_no_light_under_a_box_that_stands_on_the_floor) {
   for (const auto& placing : placings) {
     scene::SceneBuilder builder({"grey"});
     const auto grey = builder.add_material(test::diffuse("grey", 0.5, 0));
-    builder.add_box("room", {placing(Vec3(0, 0, 0)), placing(Vec3(4, 4, 3))}, grey, scene::SceneBuilder::Facing::inward);
+    builder.add_box("room", {placing(Vec3(0, 0, 0)), placing(Vec3(4, 4, 3))}, grey,
+                    scene::SceneBuilder::Facing::inward);
     builder.add_box("box", {placing(Vec3(1, 1, 0)), placing(Vec3(2, 2, 1))}, grey);
     const scene::Scene scene = builder.finish();
     for (const std::string& name : ray_caster_names()) {
@@ -122,8 +122,7 @@ TEST(RayCasters, let_no_light_under_a_box_that_stands_on_the_floor) {
         core::RandomNumbers numbers(23, 2, i);
         // Distances from the foot of the wall x = 1 between 1e-4 and 1, evenly in their logarithm.
         const double inside = std::pow(10, -4 * numbers.next()), y = 1.001 + 0.998 * numbers.next();
-        const double u = numbers.next(), v = numbers.next();
-        const Vec3 direction = test::cosine_about(Vec3::UnitZ(), u, v);
+        const Vec3 direction = test::cosine_about(Vec3::UnitZ(), numbers);
         const auto under = caster->closest({placing(Vec3(1 + 0.999 * inside, y, 0)), direction, Vec3::UnitZ()});
         ASSERT_TRUE(under);
         EXPECT_EQ(under->side, scene::Side::back) << name << placing.scale;
@@ -131,7 +130,8 @@ TEST(RayCasters, let_no_light_under_a_box_that_stands_on_the_floor) {
         const auto outside = caster->closest({placing(Vec3(1 - inside, y, 0)), direction, Vec3::UnitZ()});
         ASSERT_TRUE(outside);
         EXPECT_EQ(outside->side, scene::Side::front) << name << placing.scale;
-        EXPECT_TRUE(caster->occluded(Segment{placing(Vec3(1 + 0.999 * inside, y, 0)), placing(Vec3(0.5, 0.5, 3)), Vec3::UnitZ(), -Vec3::UnitZ()}));
+        EXPECT_TRUE(caster->occluded(Segment{placing(Vec3(1 + 0.999 * inside, y, 0)), placing(Vec3(0.5, 0.5, 3)),
+                                             Vec3::UnitZ(), -Vec3::UnitZ()}));
       }
     }
   }

@@ -76,7 +76,8 @@ TEST(AtomicFile, files_get_the_permissions_that_other_programs_give) {
   const Scratch scratch;
   write_atomically(scratch / "ours", "x");
   std::ofstream(scratch / "theirs") << "x";
-  EXPECT_EQ(std::filesystem::status(scratch / "ours").permissions(), std::filesystem::status(scratch / "theirs").permissions());
+  EXPECT_EQ(std::filesystem::status(scratch / "ours").permissions(),
+            std::filesystem::status(scratch / "theirs").permissions());
 }
 
 TEST(AtomicFile, an_output_directory_is_made_with_its_parents_and_left_empty) {
@@ -93,7 +94,10 @@ TEST(AtomicFile, an_output_directory_that_cannot_be_used_is_refused_before_any_w
             (scratch / "file").string() + ": cannot be written: Not a directory");
   EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "file/out"); }),
             (scratch / "file/out").string() + ": cannot be written: Not a directory");
-  EXPECT_EQ(message_of([&] { prepare_output_directory("/proc/interflect"); }).rfind("/proc/interflect: cannot be written: ", 0), 0u);
+  EXPECT_EQ(message_of([&] {
+              prepare_output_directory("/proc/interflect");
+            }).rfind("/proc/interflect: cannot be written: ", 0),
+            0u);
   const FullDisk full(0);
   EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "full"); }),
             (scratch / "full").string() + ": cannot be written: File too large");

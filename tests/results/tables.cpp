@@ -58,8 +58,9 @@ TEST(Tables, names_of_every_kind_survive_csv) {
 
 TEST(Tables, numbers_keep_twelve_digits_and_infinity_is_inf) {
   const double inf = std::numeric_limits<double>::infinity();
-  const auto lines = parsed(surfaces_csv(std::vector<SurfaceRow>{{"a", 1.0 / 3, rgb(1e-7 / 3, 2e9 / 3, -0.0),
-                                                                  rgb(inf, -inf, std::nan("")), rgb(1, 2, 3)}}, 3));
+  const auto lines = parsed(surfaces_csv(
+      std::vector<SurfaceRow>{{"a", 1.0 / 3, rgb(1e-7 / 3, 2e9 / 3, -0.0), rgb(inf, -inf, std::nan("")), rgb(1, 2, 3)}},
+      3));
   EXPECT_NEAR(std::stod(lines[1][1]) * 3, 1, 1e-11);
   EXPECT_NEAR(std::stod(lines[1][2]) * 3e7, 1, 1e-11);
   EXPECT_NEAR(std::stod(lines[1][3]) * 1.5e-9, 1, 1e-11);

@@ -8,7 +8,8 @@ namespace tiny {
 
 using namespace interflect;
 
-/// Surface 0: two unit squares side by side in z = 0, from x = 0 to 2, facing up.  Surface 1: a triangle in z = 1, its back.
+/// Surface 0: two unit squares side by side in z = 0, from x = 0 to 2, facing up.  Surface 1: a triangle in z = 1, its
+/// back.
 inline mesh::ElementMesh mesh() {
   using scene::Side, scene::SurfaceId;
   const std::array<Vec3, 4> left{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};

@@ -68,8 +68,13 @@ std::vector<T> values(const std::string& xml, const std::string& name) {
 
 TEST(Vtu, base64_has_the_values_of_the_standard) {
   // RFC 4648, section 10.
-  const std::pair<const char*, const char*> known[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="},
-                                                       {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  const std::pair<const char*, const char*> known[] = {{"", ""},
+                                                       {"f", "Zg=="},
+                                                       {"fo", "Zm8="},
+                                                       {"foo", "Zm9v"},
+                                                       {"foob", "Zm9vYg=="},
+                                                       {"fooba", "Zm9vYmE="},
+                                                       {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : known) EXPECT_EQ(base64(bytes), text);
   EXPECT_EQ(base64("\xff\xff\xfe"), "///+");
 }

@@ -10,10 +10,12 @@ using test::complaint;
 using test::Folder;
 
 /// What is said of a mesh file, without the folder before its name.
-std::string said_of(const std::string& name, const std::string& bytes, const std::string& more = R"(, "unmapped": "white")") {
+std::string said_of(const std::string& name, const std::string& bytes,
+                    const std::string& more = R"(, "unmapped": "white")") {
   const Folder folder;
   folder.write(name, bytes);
-  std::string said = complaint({"", R"("white": {"reflectance": 0.5})", R"({"file": ")" + name + "\"" + more + "}"}, folder.path());
+  std::string said =
+      complaint({"", R"("white": {"reflectance": 0.5})", R"({"file": ")" + name + "\"" + more + "}"}, folder.path());
   const std::string prefix = folder.path().string() + "/";
   if (said.starts_with(prefix)) said.erase(0, prefix.size());
   return said;
@@ -24,8 +26,10 @@ const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
 TEST(BadMesh, obj_faults_name_their_line) {
   EXPECT_EQ(said_of("m.obj", corners + "f 1 2 4\n"), "m.obj:4: a face refers to vertex 4, and 3 are defined so far");
   EXPECT_EQ(said_of("m.obj", corners + "f 1 2 -4\n"), "m.obj:4: a face refers to vertex -4, and 3 are defined so far");
-  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 0\n"), "m.obj:4: a face has an index that is 0 or no number: they start at 1");
-  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 x\n"), "m.obj:4: a face has an index that is 0 or no number: they start at 1");
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 0\n"),
+            "m.obj:4: a face has an index that is 0 or no number: they start at 1");
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 x\n"),
+            "m.obj:4: a face has an index that is 0 or no number: they start at 1");
   EXPECT_EQ(said_of("m.obj", corners + "f 1 2 4294967297\n"), "m.obj:4: a face has an index beyond a thousand million");
   EXPECT_EQ(said_of("m.obj", "v 0 0 0\nv 1 nan 0\n"), "m.obj:2: the coordinate 'nan' is not finite");
   EXPECT_EQ(said_of("m.obj", "v 0 0 0\n\nv 1 0 -inf\n"), "m.obj:3: the coordinate '-inf' is not finite");
@@ -44,24 +48,28 @@ TEST(BadMesh, files_without_faces_are_refused) {
 }
 
 TEST(BadMesh, degenerate_faces_are_an_error_where_they_may_not_be_dropped) {
-  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\nf 1 1 2\n", R"(, "unmapped": "white", "repair": {"drop_degenerate": false})"),
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\nf 1 1 2\n",
+                    R"(, "unmapped": "white", "repair": {"drop_degenerate": false})"),
             "m.obj: face 2 has no area (\"drop_degenerate\" would drop it)");
 }
 
 TEST(BadMesh, unmapped_materials_are_listed) {
   const std::string text = corners + "usemtl Ceil\nf 1 2 3\nusemtl Wall\nf 1 3 2\n";
   EXPECT_EQ(said_of("m.obj", text, ""),
-            "s.json:5: /geometry/0: materials of the file without one of the scene: 'Ceil', 'Wall' (map them in \"materials\", or "
+            "s.json:5: /geometry/0: materials of the file without one of the scene: 'Ceil', 'Wall' (map them in "
+            "\"materials\", or "
             "name one as \"unmapped\")");
   EXPECT_EQ(said_of("m.obj", text, R"(, "materials": {"Ceil": "white"}, "unmapped": "error")"),
-            "s.json:5: /geometry/0: materials of the file without one of the scene: 'Wall' (map them in \"materials\", or name one as "
+            "s.json:5: /geometry/0: materials of the file without one of the scene: 'Wall' (map them in \"materials\", "
+            "or name one as "
             "\"unmapped\")");
   EXPECT_EQ(said_of("m.obj", text, R"(, "materials": {"Ceil": "whit"}, "unmapped": "white")"),
             "s.json:5: /geometry/0/materials/Ceil: the material 'whit' is not known: did you mean 'white'?");
 }
 
 TEST(BadMesh, unknown_formats_are_named) {
-  EXPECT_EQ(said_of("m.3ds", "x"), "m.3ds: the mesh format '.3ds' is not known: one of .obj, .ply, .stl, .gltf, .glb is expected");
+  EXPECT_EQ(said_of("m.3ds", "x"),
+            "m.3ds: the mesh format '.3ds' is not known: one of .obj, .ply, .stl, .gltf, .glb is expected");
   EXPECT_EQ(said_of("m.gtlf", "x"), "m.gtlf: the mesh format '.gtlf' is not known: did you mean '.gltf'?");
 }
 
@@ -71,15 +79,21 @@ TEST(BadMesh, foreign_encodings_are_named) {
 }
 
 TEST(BadMesh, headers_that_promise_more_than_there_is_are_refused) {
-  EXPECT_EQ(said_of("m.ply",
-                    "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
-                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n"),
-            "m.ply: the header promises 4000000001 elements, in 17 bytes");
+  EXPECT_EQ(
+      said_of("m.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n"),
+      "m.ply: the header promises 4000000001 elements, in 6 bytes");
   EXPECT_EQ(said_of("m.ply", "plx\n"), "m.ply: this is not a PLY file: it does not begin with 'ply'");
+  EXPECT_EQ(said_of("m.ply", "ply\nformat ascii 1.0\nend_header-1"), "m.ply: the PLY header has no end");
+  EXPECT_EQ(said_of("m.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty fld\nend_header\n0\n"),
+            "m.ply: the PLY header's line 'property fld' is not understood");
   EXPECT_EQ(said_of("m.ply", "ply\nformat ascii 1.0\n"), "m.ply: the PLY header has no end");
-  EXPECT_EQ(said_of("m.stl", std::string(80, ' ') + "\xFF\xFF\xFF\xFF"), "m.stl: the header promises 4294967295 triangles, in 84 bytes");
+  EXPECT_EQ(said_of("m.stl", std::string(80, ' ') + "\xFF\xFF\xFF\xFF"),
+            "m.stl: the header promises 4294967295 triangles, in 84 bytes");
   EXPECT_EQ(said_of("m.stl", "nothing"), "m.stl: 7 bytes are too few for an STL file");
-  EXPECT_EQ(said_of("m.glb", "glTF\2\0\0\0\xFF\xFF\xFF\x7F\0\0\0\0JSON"s), "m.glb: the file is shorter than its header says");
+  EXPECT_EQ(said_of("m.glb", "glTF\2\0\0\0\xFF\xFF\xFF\x7F\0\0\0\0JSON"s),
+            "m.glb: the file is shorter than its header says");
 }
 
 TEST(BadMesh, gltf_texts_that_lie_are_refused) {
@@ -88,19 +102,58 @@ TEST(BadMesh, gltf_texts_that_lie_are_refused) {
             "m.gltf: a buffer promises more bytes than the files hold");
   EXPECT_EQ(said_of("m.gltf", head + R"("buffers": [{"byteLength": 36, "uri": "nowhere.bin"}]})"),
             "m.gltf: the buffer 'nowhere.bin' cannot be read");
-  EXPECT_EQ(said_of("m.gltf", head + R"("accessors": [{"count": 4000000000}]})"), "m.gltf: 'count' in 'accessors' exceeds the buffers");
-  EXPECT_EQ(said_of("m.gltf", head + R"("accessors": [{"count": -1}]})"), "m.gltf: 'count' in 'accessors' is not a whole number");
-  EXPECT_EQ(said_of("m.gltf", head + R"("nodes": [{"children": [1]}, {"children": [0]}]})"), "m.gltf: nodes hold each other in a ring");
-  EXPECT_EQ(said_of("m.gltf", head + R"("nodes": [{"children": [7]}]})"), "m.gltf: node 0 has a child that does not exist");
+  EXPECT_EQ(said_of("m.gltf", head + R"("accessors": [{"count": 4000000000}]})"),
+            "m.gltf: 'count' in 'accessors' exceeds the buffers");
+  EXPECT_EQ(said_of("m.gltf", head + R"("accessors": [{"count": -1}]})"),
+            "m.gltf: 'count' in 'accessors' is not a whole number");
+  EXPECT_EQ(said_of("m.gltf", head + R"("nodes": [{"children": [1]}, {"children": [0]}]})"),
+            "m.gltf: nodes hold each other in a ring");
+  EXPECT_EQ(said_of("m.gltf", head + R"("nodes": [{"children": [7]}]})"),
+            "m.gltf: node 0 has a child that does not exist");
   EXPECT_EQ(said_of("m.gltf", "[" + std::string(100000, '[')), "m.gltf: nested deeper than 200 levels");
   std::string chain;
   for (int k = 1; k < 2000; ++k) chain += R"({"children": [)" + std::to_string(k) + "]}, ";
   EXPECT_EQ(said_of("m.gltf", head + "\"nodes\": [" + chain + "{}]}"), "m.gltf: nodes are nested deeper than 500");
 }
 
+TEST(BadMesh, gltf_accessors_stay_within_their_buffers) {
+  const auto said = [](const std::string& view, const std::string& accessor) {
+    return said_of("m.gltf",
+                   R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 3, "uri": "data:;base64,AAAA"}],
+        "bufferViews": [{"buffer": 0, )" +
+                       view + R"(}], "accessors": [{"componentType": 5121, "type": "SCALAR", )" + accessor + "}]}");
+  };
+  EXPECT_EQ(said(R"("byteLength": 4)", R"("count": 1)"), "m.gltf: a buffer view reaches beyond its buffer");
+  EXPECT_EQ(said(R"("byteLength": 2, "byteOffset": 2)", R"("count": 1)"),
+            "m.gltf: a buffer view reaches beyond its buffer");
+  EXPECT_EQ(said(R"("byteLength": 3)", R"("bufferView": 0, "count": 4)"),
+            "m.gltf: an accessor reaches beyond its buffer view");
+  EXPECT_EQ(said(R"("byteLength": 3)", R"("bufferView": 1, "count": 1)"),
+            "m.gltf: an accessor names a buffer view that does not exist");
+  EXPECT_EQ(said(R"("byteLength": 3)", R"("bufferView": 0, "count": 3, "sparse": {"count": 4})"),
+            "m.gltf: a sparse accessor changes more than it has");
+}
+
+TEST(BadMesh, ply_lists_stay_within_their_file) {
+  const auto header = [](const std::string& format) {
+    return "ply\nformat " + format + " 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
+           "element face 1\nproperty list uint int vertex_indices\nend_header\n";
+  };
+  EXPECT_EQ(said_of("m.ply", header("binary_little_endian") + std::string(12, '\0') + "\xFF\xFF\xFF\xFF" +
+                                 std::string(12, '\0')),
+            "m.ply: the data end within the elements 'face'");
+  EXPECT_EQ(said_of("m.ply", header("binary_big_endian") + std::string(12, '\0') + "\0\0\0\4"s + std::string(12, '\0')),
+            "m.ply: the data end within the elements 'face'");
+  EXPECT_EQ(said_of("m.ply", header("binary_little_endian") + std::string(8, '\0')),
+            "m.ply: the data end within the elements 'vertex'");
+  EXPECT_EQ(said_of("m.ply", header("ascii") + "0 0 0\n4000000000 0 0 0\n"),
+            "m.ply: a list of the elements 'face' promises more than its line holds");
+}
+
 TEST(BadMesh, every_truncation_is_read_or_refused_in_one_line) {
   const std::string text = corners + "g a\nusemtl b\nf 1/1/1 2//2 3\n";
-  for (std::size_t length = 0; length <= text.size(); ++length) EXPECT_EQ(said_of("m.obj", text.substr(0, length)).find("MORE"), std::string::npos);
+  for (std::size_t length = 0; length <= text.size(); ++length)
+    EXPECT_EQ(said_of("m.obj", text.substr(0, length)).find("MORE"), std::string::npos);
   std::string binary(80, ' ');
   binary += "\2\0\0\0"s + std::string(100, '\1');
   for (std::size_t length = 0; length <= binary.size(); length += 7)

@@ -34,7 +34,8 @@ TEST(BadScene, files_that_cannot_be_read_are_named) {
   EXPECT_EQ(said_of("/nowhere/office.json"), "/nowhere/office.json: there is no such file");
   EXPECT_EQ(said_of(folder.path()), folder.path().string() + ": this is a directory: a file is expected");
   EXPECT_EQ(said_of("/dev/null"), "/dev/null: this is not a regular file");
-  EXPECT_EQ(said_of(folder.write("empty.json", "")), (folder.path() / "empty.json").string() + ": the file is empty: a JSON object is expected");
+  EXPECT_EQ(said_of(folder.write("empty.json", "")),
+            (folder.path() / "empty.json").string() + ": the file is empty: a JSON object is expected");
   EXPECT_EQ(said_of(folder.write("good.json", Text{}.str())), "read");
 }
 
@@ -47,14 +48,15 @@ TEST(BadScene, the_document_is_an_interflect_scene) {
 }
 
 TEST(BadScene, unknown_keys_and_words_bring_the_nearest_known_one) {
-  expect_all({{{R"("chanels": ["y"])"}, "s.json:4: /chanels: the key 'chanels' is not known: did you mean 'channels'?"},
-              {{R"("up": "x")"}, "s.json:4: /up: the word 'x' is not known: did you mean 'z'?"},
-              {{R"("quantity": "photometrical")"},
-               "s.json:4: /quantity: the word 'photometrical' is not known: did you mean 'photometric'?"},
-              {with_material(R"("reflectence": 0.5)"),
-               "s.json:4: /materials/white/reflectence: the key 'reflectence' is not known: did you mean 'reflectance'?"},
-              {{"", R"("white": {"reflectance": 0.5})", R"({"polygn": [], "material": "white"})"},
-               "s.json:5: /geometry/0/polygn: the key 'polygn' is not known: did you mean 'polygon'?"}});
+  expect_all(
+      {{{R"("chanels": ["y"])"}, "s.json:4: /chanels: the key 'chanels' is not known: did you mean 'channels'?"},
+       {{R"("up": "x")"}, "s.json:4: /up: the word 'x' is not known: did you mean 'z'?"},
+       {{R"("quantity": "photometrical")"},
+        "s.json:4: /quantity: the word 'photometrical' is not known: did you mean 'photometric'?"},
+       {with_material(R"("reflectence": 0.5)"),
+        "s.json:4: /materials/white/reflectence: the key 'reflectence' is not known: did you mean 'reflectance'?"},
+       {{"", R"("white": {"reflectance": 0.5})", R"({"polygn": [], "material": "white"})"},
+        "s.json:5: /geometry/0/polygn: the key 'polygn' is not known: did you mean 'polygon'?"}});
   Text unit;
   unit.units = "metre";
   EXPECT_EQ(complaint(unit), "s.json:3: /units: the word 'metre' is not known: one of m, cm, mm, ft, in is expected");
@@ -71,51 +73,59 @@ TEST(BadScene, what_this_version_does_not_know_is_said_in_so_many_words) {
               {with_material(R"("type": "difuse", "reflectance": 0.8)"),
                "s.json:4: /materials/white/type: the type 'difuse' is not known: did you mean 'diffuse'?"},
               {with_material(R"("reflectance": {"spectrum": "a.csv"})"),
-               "s.json:4: /materials/white/reflectance: this version does not know spectra from files: a number or an array is expected"}});
+               "s.json:4: /materials/white/reflectance: this version does not know spectra from files: a number or an "
+               "array is expected"}});
 }
 
 TEST(BadScene, materials_conserve_energy) {
-  expect_all({{with_material(R"("reflectance": 1.7)"), "s.json:4: /materials/white/reflectance: 1.7 is outside 0..1"},
-              {with_material(R"("reflectance": -0.1)"), "s.json:4: /materials/white/reflectance: -0.1 is outside 0..1"},
-              {with_material(R"("reflectance": 1)"),
-               "s.json:4: /materials/white/reflectance: a reflectance of 1 is not below 1: every surface absorbs some light"},
-              {with_material(R"("reflectance": [0.5, 0.5, 1.2])"), "s.json:4: /materials/white/reflectance/2: 1.2 is outside 0..1"},
-              {with_material(R"("reflectance": "grey")"), "s.json:4: /materials/white/reflectance: a number or an array of numbers is expected"},
-              {with_material(R"("exitance": 3)"), "s.json:4: /materials/white: the key 'reflectance' is missing"},
-              {with_material(R"("reflectance": 0, "exitance": -3)"),
-               "s.json:4: /materials/white/exitance: -3 is negative: a surface cannot emit less than nothing"},
-              {with_material(R"("reflectance": 0, "exitance": 1, "flux": 1)"),
-               "s.json:4: /materials/white: exitance and flux exclude each other: give one"},
-              {with_material(R"("reflectance": 0, "sides": "back")"),
-               "s.json:4: /materials/white/sides: the word 'back' is not known: one of front, both is expected"}});
+  expect_all(
+      {{with_material(R"("reflectance": 1.7)"), "s.json:4: /materials/white/reflectance: 1.7 is outside 0..1"},
+       {with_material(R"("reflectance": -0.1)"), "s.json:4: /materials/white/reflectance: -0.1 is outside 0..1"},
+       {with_material(R"("reflectance": 1)"),
+        "s.json:4: /materials/white/reflectance: a reflectance of 1 is not below 1: every surface absorbs some light"},
+       {with_material(R"("reflectance": [0.5, 0.5, 1.2])"),
+        "s.json:4: /materials/white/reflectance/2: 1.2 is outside 0..1"},
+       {with_material(R"("reflectance": "grey")"),
+        "s.json:4: /materials/white/reflectance: a number or an array of numbers is expected"},
+       {with_material(R"("exitance": 3)"), "s.json:4: /materials/white: the key 'reflectance' is missing"},
+       {with_material(R"("reflectance": 0, "exitance": -3)"),
+        "s.json:4: /materials/white/exitance: -3 is negative: a surface cannot emit less than nothing"},
+       {with_material(R"("reflectance": 0, "exitance": 1, "flux": 1)"),
+        "s.json:4: /materials/white: exitance and flux exclude each other: give one"},
+       {with_material(R"("reflectance": 0, "sides": "back")"),
+        "s.json:4: /materials/white/sides: the word 'back' is not known: one of front, both is expected"}});
 }
 
 TEST(BadScene, numbers_are_finite) {
   const std::string nan = complaint(with_material(R"("reflectance": NaN)"));
   EXPECT_TRUE(nan.starts_with("s.json:4: JSON syntax error")) << nan;
-  const std::string infinite = complaint(with_geometry(R"({"polygon": [[0,0,0],[1e999,0,0],[1,1,0]], "material": "white"})"));
+  const std::string infinite =
+      complaint(with_geometry(R"({"polygon": [[0,0,0],[1e999,0,0],[1,1,0]], "material": "white"})"));
   EXPECT_TRUE(infinite.starts_with("s.json:5: number overflow")) << infinite;
 }
 
 TEST(BadScene, channels_agree) {
-  expect_all({{{R"("channels": [])"}, "s.json:4: /channels: at least 1 elements are expected, not 0"},
-              {{R"("channels": ["a", "a"])"}, "s.json:4: /channels/1: two channels have the name 'a'"},
-              {{R"("channels": ["a", "b"], "weights": [1])"}, "s.json:4: /weights: 1 numbers for a scene of 2 channels"},
-              {{R"("weights": 0)"}, "s.json:4: /weights: a weight must be positive"},
-              {{R"("channels": ["y"])", R"("white": {"reflectance": [0.5, 0.5, 0.5]})"},
-               "s.json:5: /materials/white/reflectance: 3 numbers for a scene of 1 channel"},
-              {{"", R"("white": {"reflectance": [0.5, 0.5, 0.5]}, "b": {"reflectance": [0.1, 0.2]})"},
-               "s.json:4: /materials/b/reflectance: 2 numbers for a scene of 3 channels"}});
+  expect_all(
+      {{{R"("channels": [])"}, "s.json:4: /channels: at least 1 elements are expected, not 0"},
+       {{R"("channels": ["a", "a"])"}, "s.json:4: /channels/1: two channels have the name 'a'"},
+       {{R"("channels": ["a", "b"], "weights": [1])"}, "s.json:4: /weights: 1 numbers for a scene of 2 channels"},
+       {{R"("weights": 0)"}, "s.json:4: /weights: a weight must be positive"},
+       {{R"("channels": ["y"])", R"("white": {"reflectance": [0.5, 0.5, 0.5]})"},
+        "s.json:5: /materials/white/reflectance: 3 numbers for a scene of 1 channel"},
+       {{"", R"("white": {"reflectance": [0.5, 0.5, 0.5]}, "b": {"reflectance": [0.1, 0.2]})"},
+        "s.json:4: /materials/b/reflectance: 2 numbers for a scene of 3 channels"}});
   std::string names;
   for (int c = 0; c <= Spectrum::capacity; ++c) names += (c ? ", \"" : "\"") + std::to_string(c) + "\"";
   const std::string said = complaint(Text{"\"channels\": [" + names + "]"});
-  EXPECT_TRUE(said.starts_with("s.json:4: /channels: " + std::to_string(Spectrum::capacity + 1) + " channels: this build holds at most"));
+  EXPECT_TRUE(said.starts_with("s.json:4: /channels: " + std::to_string(Spectrum::capacity + 1) +
+                               " channels: this build holds at most"));
 }
 
 TEST(BadScene, inline_geometry_is_checked_where_it_stands) {
   expect_all(
       {{with_geometry(""), "s.json:5: /geometry: a scene has at least one surface"},
-       {with_geometry(R"({"material": "white"})"), "s.json:5: /geometry/0: one of 'file', 'polygon' and 'box' is expected"},
+       {with_geometry(R"({"material": "white"})"),
+        "s.json:5: /geometry/0: one of 'file', 'polygon' and 'box' is expected"},
        {with_geometry(R"({"polygon": [[0,0,0],[1,0,0]], "material": "white"})"),
         "s.json:5: /geometry/0/polygon: at least 3 elements are expected, not 2"},
        {with_geometry(R"({"polygon": [[0,0,0],[1,0],[1,1,0]], "material": "white"})"),
@@ -123,10 +133,12 @@ TEST(BadScene, inline_geometry_is_checked_where_it_stands) {
        {with_geometry(R"({"polygon": [[0,0,0],[1,0,0],[2,0,0]], "material": "white"})"),
         "s.json:5: /geometry/0/polygon: the outline encloses no area: its corners lie on a line, or it crosses itself"},
        {with_geometry(R"({"polygon": [[0,0,0],[1,0,0],[1,1,0.2],[0,1,0]], "material": "white"})"),
-        "s.json:5: /geometry/0/polygon: the polygon is not planar: a corner lies 0.0347 of its diameter out of plane, at most 1e-06 is allowed"},
+        "s.json:5: /geometry/0/polygon: the polygon is not planar: a corner lies 0.0347 of its diameter out of plane, "
+        "at most 1e-06 is allowed"},
        {with_geometry(R"({"polygon": [[0,0,0],[1,0,0],[1,1,0]], "material": "whte"})"),
         "s.json:5: /geometry/0/material: the material 'whte' is not known: did you mean 'white'?"},
-       {with_geometry(R"({"polygon": [[0,0,0],[1,0,0],[1,1,0]]})"), "s.json:5: /geometry/0: the key 'material' is missing"},
+       {with_geometry(R"({"polygon": [[0,0,0],[1,0,0],[1,1,0]]})"),
+        "s.json:5: /geometry/0: the key 'material' is missing"},
        {with_geometry(R"({"box": {"min": [0,0,0], "max": [1,0,1]}, "material": "white"})"),
         "s.json:5: /geometry/0/box: 'min' must be below 'max' in all three coordinates"},
        {with_geometry(R"({"polygon": [[0,0,0],[1,0,0],[1,1,0]], "material": "white", "transform": {"scale": -1}})"),
@@ -139,16 +151,22 @@ TEST(BadScene, cameras_see_something) {
   expect_all(
       {{camera(R"("eye": [1,1,1], "target": [1,1,1])"),
         "s.json:4: /cameras/0: the camera looks at itself: eye and target are the same point"},
-       {camera(R"("eye": [0,0,3], "target": [0,0,0])"), "s.json:4: /cameras/0: the camera looks along its 'up': give it another"},
+       {camera(R"("eye": [0,0,3], "target": [0,0,0])"),
+        "s.json:4: /cameras/0: the camera looks along its 'up': give it another"},
        {camera(R"("eye": [0,3,0], "target": [0,0,0], "up": [0,2,0])"),
         "s.json:4: /cameras/0/up: the camera looks along its 'up': give it another"},
-       {camera(R"("eye": [1,1,1], "target": [0,0,0], "up": [0,0,0])"), "s.json:4: /cameras/0/up: the zero vector is no direction"},
+       {camera(R"("eye": [1,1,1], "target": [0,0,0], "up": [0,0,0])"),
+        "s.json:4: /cameras/0/up: the zero vector is no direction"},
        {camera(R"("eye": [1,1,1], "target": [0,0,0], "fov_y_deg": 180)"),
         "s.json:4: /cameras/0/fov_y_deg: an angle between 0 and 180 is expected"},
-       {camera(R"("eye": [1,1,1], "target": [0,0,0], "fov_y_deg": 200)"), "s.json:4: /cameras/0/fov_y_deg: 200 is outside 0..180"},
-       {camera(R"("eye": [1,1,1], "target": [0,0,0], "size": [0, 600])"), "s.json:4: /cameras/0/size/0: 0 is outside 1..65536"},
-       {camera(R"("eye": [1,1,1], "target": [0,0,0], "size": [800, 70000])"), "s.json:4: /cameras/0/size/1: 70000 is outside 1..65536"},
-       {camera(R"("eye": [1,1,1], "target": [0,0,0], "size": [80.5, 60])"), "s.json:4: /cameras/0/size/0: 80.5 is not a whole number"},
+       {camera(R"("eye": [1,1,1], "target": [0,0,0], "fov_y_deg": 200)"),
+        "s.json:4: /cameras/0/fov_y_deg: 200 is outside 0..180"},
+       {camera(R"("eye": [1,1,1], "target": [0,0,0], "size": [0, 600])"),
+        "s.json:4: /cameras/0/size/0: 0 is outside 1..65536"},
+       {camera(R"("eye": [1,1,1], "target": [0,0,0], "size": [800, 70000])"),
+        "s.json:4: /cameras/0/size/1: 70000 is outside 1..65536"},
+       {camera(R"("eye": [1,1,1], "target": [0,0,0], "size": [80.5, 60])"),
+        "s.json:4: /cameras/0/size/0: 80.5 is not a whole number"},
        {camera(R"("name": "a", "eye": [1,1,1], "target": [0,0,0]}, {"name": "a", "eye": [1,1,1], "target": [0,0,0])"),
         "s.json:4: /cameras/1/name: the name 'a' is taken"}});
 }
@@ -157,10 +175,12 @@ TEST(BadScene, sensors_measure_somewhere) {
   const auto sensor = [](const std::string& body) { return Text{"\"sensors\": [{\"name\": \"s\", " + body + "}]"}; };
   const std::string n = R"("normal": [0,0,1], )";
   expect_all(
-      {{sensor(R"("normal": [0,0,0], "points": [[0,0,0]])"), "s.json:4: /sensors/0/normal: the zero vector is no direction"},
+      {{sensor(R"("normal": [0,0,0], "points": [[0,0,0]])"),
+        "s.json:4: /sensors/0/normal: the zero vector is no direction"},
        {sensor(R"("normal": [0,0,1])"), "s.json:4: /sensors/0: one of 'grid' and 'points' is expected"},
        {sensor(n + R"("points": [])"), "s.json:4: /sensors/0/points: at least 1 elements are expected, not 0"},
-       {sensor(n + R"("points": [[0,0,0]], "exclude_border": 1)"), "s.json:4: /sensors/0/exclude_border: only a grid has a border"},
+       {sensor(n + R"("points": [[0,0,0]], "exclude_border": 1)"),
+        "s.json:4: /sensors/0/exclude_border: only a grid has a border"},
        {sensor(n + R"("quantity": "luminance", "points": [[0,0,0]])"),
         "s.json:4: /sensors/0/quantity: the word 'luminance' is not known: one of irradiance is expected"},
        {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1,0,0], "v": [2,0,0], "spacing": 0.1})"),

@@ -48,7 +48,8 @@ TEST(Builder, names_become_unique) {
 TEST(Builder, facets_without_area_are_refused_and_leave_nothing_behind) {
   SceneBuilder builder({"y"});
   const MaterialId m = builder.add_material(grey(0.5));
-  const std::vector<geometry::TriangleCorners> triangles{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)}};
+  const std::vector<geometry::TriangleCorners> triangles{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                                                         {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)}};
   EXPECT_THROW(builder.add_facets("f", triangles, m), geometry::Defect);
   EXPECT_TRUE(builder.scene().facets.empty());
 }
@@ -61,8 +62,9 @@ TEST(Builder, channels_are_as_many_as_the_build_holds) {
 TEST(Camera, pixels_span_the_angle_of_view) {
   const Camera camera{"c", {0, -3, 0}, {0, 0, 0}, Vec3::UnitZ(), 90, 200, 100};
   EXPECT_NEAR((camera.direction(100, 50) - Vec3(0, 1, 0)).norm(), 0, 1e-15);
-  EXPECT_NEAR((camera.direction(100, 0) - Vec3(0, 1, 1).normalized()).norm(), 0, 1e-15);     // top
-  EXPECT_NEAR((camera.direction(200, 50) - Vec3(2, 1, 0).normalized()).norm(), 0, 1e-15);    // right is +x: seen along +y, up z
+  EXPECT_NEAR((camera.direction(100, 0) - Vec3(0, 1, 1).normalized()).norm(), 0, 1e-15);  // top
+  EXPECT_NEAR((camera.direction(200, 50) - Vec3(2, 1, 0).normalized()).norm(), 0,
+              1e-15);  // right is +x: seen along +y, up z
   EXPECT_NEAR((camera.direction(0, 100) - Vec3(-2, 1, -1).normalized()).norm(), 0, 1e-15);
 }
 

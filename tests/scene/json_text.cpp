@@ -20,7 +20,8 @@ std::string said_of(std::string_view text) {
 }
 
 TEST(JsonText, every_value_knows_its_line) {
-  const JsonDocument document("{ // a comment\n\"a\": 1,\n\"b\":\n[2,\n3\n],\r\n\"c\": {\"d\": \"x\"},\n\"e\": true }\n", "s.json");
+  const JsonDocument document(
+      "{ // a comment\n\"a\": 1,\n\"b\":\n[2,\n3\n],\r\n\"c\": {\"d\": \"x\"},\n\"e\": true }\n", "s.json");
   const JsonNode root = document.root();
   EXPECT_EQ(root.place(), "s.json:1: /");
   EXPECT_EQ(root.at("a").place(), "s.json:2: /a");
@@ -81,14 +82,16 @@ TEST(JsonText, empty_files_are_named) {
 }
 
 TEST(JsonText, messages_stay_one_line_whatever_a_key_holds) {
-  const std::string said = complaint(R"({"format": "interflect/scene/1", "uni\nts)" + std::string(5000, 'x') + R"(": 1})");
+  const std::string said =
+      complaint(R"({"format": "interflect/scene/1", "uni\nts)" + std::string(5000, 'x') + R"(": 1})");
   EXPECT_TRUE(said.starts_with("s.json:1: /uni ts"));
   EXPECT_LT(said.size(), 600u);
 }
 
 TEST(Words, the_nearest_known_one_is_suggested) {
   const std::vector<std::string> known{"reflectance", "exitance", "flux", "sides"};
-  EXPECT_EQ(unknown_word("the key", "reflectence", known), "the key 'reflectence' is not known: did you mean 'reflectance'?");
+  EXPECT_EQ(unknown_word("the key", "reflectence", known),
+            "the key 'reflectence' is not known: did you mean 'reflectance'?");
   EXPECT_EQ(unknown_word("the key", "fulx", known), "the key 'fulx' is not known: did you mean 'flux'?");
   EXPECT_EQ(unknown_word("the key", "colour", known),
             "the key 'colour' is not known: one of reflectance, exitance, flux, sides is expected");

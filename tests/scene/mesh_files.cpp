@@ -38,7 +38,8 @@ TEST(MeshFile, obj_coordinates_are_read_to_the_last_bit) {
   std::vector<Vec3> given;
   std::string text;
   for (int k = 0; k < 300; ++k) {  // decimals with 17 digits name a double
-    given.emplace_back((numbers.next() - 0.5) * std::pow(10, 12 * numbers.next() - 6), numbers.next() * 1e3, numbers.next());
+    given.emplace_back((numbers.next() - 0.5) * std::pow(10, 12 * numbers.next() - 6), numbers.next() * 1e3,
+                       numbers.next());
     char line[200];
     std::snprintf(line, sizeof line, "v\t%.17g %.17e  +%.17g\n", given.back().x(), given.back().y(), given.back().z());
     text += line;
@@ -52,9 +53,11 @@ TEST(MeshFile, obj_coordinates_are_read_to_the_last_bit) {
 
 TEST(MeshFile, obj_grammar_is_understood) {
   const Folder folder;
-  folder.write("m.obj",
-               "# a comment\r\nmtllib nowhere.mtl\r\nv 0 0 0 # origin\r\nv 1 0 0\r\nv 1 1 \\\r\n0\r\nv 0 1 0\r\nvt 0 0\r\nvn 0 0 1\r\n"
-               "o thing\r\ng left side\r\nusemtl red paint\r\nf 1/1/1 2//1 3/1 # quarter\r\nusemtl blue\r\nf 1 3 4\r\n");
+  folder.write(
+      "m.obj",
+      "# a comment\r\nmtllib nowhere.mtl\r\nv 0 0 0 # origin\r\nv 1 0 0\r\nv 1 1 \\\r\n0\r\nv 0 1 0\r\nvt 0 0\r\nvn 0 "
+      "0 1\r\n"
+      "o thing\r\ng left side\r\nusemtl red paint\r\nf 1/1/1 2//1 3/1 # quarter\r\nusemtl blue\r\nf 1 3 4\r\n");
   const Scene scene = scene_of(folder, "m.obj");
   ASSERT_EQ(scene.surfaces.size(), 2u);
   EXPECT_EQ(scene.surfaces[0].name, "left side/red paint");
@@ -66,7 +69,9 @@ TEST(MeshFile, obj_grammar_is_understood) {
 
 TEST(MeshFile, a_surface_that_is_one_polygon_keeps_its_outline) {
   const Folder folder;
-  folder.write("m.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\ng el\nf 1 2 3 4 5 6\ng other\nf 1 2 3\nf 1 3 4\n");
+  folder.write(
+      "m.obj",
+      "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\ng el\nf 1 2 3 4 5 6\ng other\nf 1 2 3\nf 1 3 4\n");
   const Scene scene = scene_of(folder, "m.obj");
   ASSERT_TRUE(scene.surfaces[0].outline.has_value());
   EXPECT_EQ(scene.surfaces[0].outline->outer.size(), 6u);
@@ -106,7 +111,8 @@ TEST(MeshFile, repairs_are_counted) {
 TEST(MeshFile, reversed_twins_of_one_sided_sheets_are_no_duplicates) {
   const Folder folder;
   folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n");
-  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "exitance": 1, "sides": "front"})", R"({"file": "m.obj", "unmapped": "white"})"},
+  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "exitance": 1, "sides": "front"})",
+                              R"({"file": "m.obj", "unmapped": "white"})"},
                              folder.path());
   EXPECT_EQ(scene.facets.size(), 2u);
   EXPECT_TRUE(scene.repairs.empty());
@@ -118,7 +124,9 @@ TEST(MeshFile, materials_are_mapped_by_name) {
   const Folder folder;
   folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl Ceil\nf 1 2 3\nusemtl Wall\nf 1 3 4\n");
   const std::string two = R"("white": {"reflectance": 0.5, "exitance": 1}, "grey": {"reflectance": 0.3})";
-  const Scene scene = parsed({"", two, R"({"file": "m.obj", "materials": {"Ceil": "white", "Wall": "grey", "Floor": "grey"}})"}, folder.path());
+  const Scene scene =
+      parsed({"", two, R"({"file": "m.obj", "materials": {"Ceil": "white", "Wall": "grey", "Floor": "grey"}})"},
+             folder.path());
   EXPECT_EQ(scene.material(SurfaceId{0}).name, "white");
   EXPECT_EQ(scene.material(SurfaceId{1}).name, "grey");
   EXPECT_EQ(messages(scene.warnings), (std::vector<std::string>{"no face bears the material 'Floor' that is mapped"}));
@@ -127,7 +135,9 @@ TEST(MeshFile, materials_are_mapped_by_name) {
 TEST(MeshFile, transforms_and_units_apply_to_files) {
   const Folder folder;
   folder.write("m.obj", "v 0 0 0\nv 100 0 0\nv 100 100 0\nf 1 2 3\n");
-  Text text{"", white, R"({"file": "m.obj", "unmapped": "white", "transform": {"rotate_deg_xyz": [90, 0, 0], "translate": [0, 0, 100]}})"};
+  Text text{
+      "", white,
+      R"({"file": "m.obj", "unmapped": "white", "transform": {"rotate_deg_xyz": [90, 0, 0], "translate": [0, 0, 100]}})"};
   text.units = "cm";
   const Scene scene = parsed(text, folder.path());
   EXPECT_EQ(scene.facets[0].corner[2], Vec3(1, 0, 2));
@@ -138,8 +148,11 @@ TEST(MeshFile, ply_and_stl_are_read_in_single_precision_and_say_so) {
   const Folder folder;
   folder.write("m.ply",
                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-               "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0.5\n4 0 1 2 3\n");
-  folder.write("m.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0.1\nendloop\nendfacet\nendsolid s\n");
+               "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0.5\n4 "
+               "0 1 2 3\n");
+  folder.write("m.stl",
+               "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 "
+               "0.1\nendloop\nendfacet\nendsolid s\n");
   std::string binary(80, ' ');
   binary += bytes_of(std::uint32_t{1});
   for (const float x : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.1f}) binary += bytes_of(x);
@@ -165,7 +178,8 @@ std::string gltf_of_triangle(const std::string& nodes) {
 
 TEST(MeshFile, gltf_nodes_place_their_meshes) {
   const Folder folder;
-  folder.write("m.gltf", gltf_of_triangle(R"([{"children": [1], "translation": [0, 0, 5]}, {"mesh": 0, "scale": [2, 2, 2]}])"));
+  folder.write("m.gltf",
+               gltf_of_triangle(R"([{"children": [1], "translation": [0, 0, 5]}, {"mesh": 0, "scale": [2, 2, 2]}])"));
   const Scene scene = scene_of(folder, "m.gltf");
   ASSERT_EQ(scene.facets.size(), 1u);
   EXPECT_EQ(scene.facets[0].corner[1], Vec3(2, 0, 5));

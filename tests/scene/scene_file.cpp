@@ -10,15 +10,18 @@ namespace {
 using test::parsed;
 using test::Text;
 
-constexpr const char* square = R"({"polygon": [[0,0,0],[1,0,0],[1,1,0],[0,1,0]], "material": "white", "name": "square")";
+constexpr const char* square =
+    R"({"polygon": [[0,0,0],[1,0,0],[1,1,0],[0,1,0]], "material": "white", "name": "square")";
 
 TEST(SceneFile, lengths_are_metres_after_reading_to_the_last_bit) {
-  const std::vector<std::pair<std::string, double>> units{{"m", 280}, {"cm", 2.8}, {"mm", 0.28}, {"ft", 280 * 0.3048}, {"in", 280 * 0.0254}};
+  const std::vector<std::pair<std::string, double>> units{
+      {"m", 280}, {"cm", 2.8}, {"mm", 0.28}, {"ft", 280 * 0.3048}, {"in", 280 * 0.0254}};
   for (const auto& [unit, metres] : units) {
     Text text{R"("sensors": [{"name": "s", "normal": [0,0,9], "points": [[280,0,0]]},
                  {"name": "g", "normal": [0,0,1], "exclude_border": 28, "grid": {"origin": [0,0,0], "u": [280,0,0], "v": [0,280,0], "spacing": 28}}],
               "cameras": [{"eye": [280,0,0], "target": [0,0,0]}])",
-              R"("white": {"reflectance": 0.5})", R"({"polygon": [[0,0,0],[280,0,0],[280,280,0]], "material": "white"})", unit};
+              R"("white": {"reflectance": 0.5})",
+              R"({"polygon": [[0,0,0],[280,0,0],[280,280,0]], "material": "white"})", unit};
     const Scene scene = parsed(text);
     EXPECT_EQ(scene.box().max().x(), metres);
     EXPECT_EQ(std::get<std::vector<Vec3>>(scene.sensors[0].where)[0].x(), metres);
@@ -38,7 +41,8 @@ TEST(SceneFile, conventions_have_their_defaults) {
   EXPECT_EQ(scene.channels, std::vector<std::string>{"y"});
   EXPECT_EQ(scene.weights[0], 1);
   EXPECT_EQ(scene.surfaces[0].name, "polygon-0");
-  const Scene other = parsed({R"("$schema": "x", "up": "y", "quantity": "radiometric", "north_deg": 30, "cameras": [{"eye": [0,0,1], "target": [0,0,0]}])"});
+  const Scene other = parsed(
+      {R"("$schema": "x", "up": "y", "quantity": "radiometric", "north_deg": 30, "cameras": [{"eye": [0,0,1], "target": [0,0,0]}])"});
   EXPECT_EQ(other.quantity, Quantity::radiometric);
   EXPECT_EQ(other.cameras[0].up, Vec3::UnitY());
   EXPECT_EQ(other.north_deg, 30);
@@ -70,7 +74,8 @@ TEST(SceneFile, flux_is_shared_by_area_over_the_surfaces_that_bear_it) {
 TEST(SceneFile, flux_is_shared_once_where_a_material_has_two_meanings_of_sides) {
   const test::Folder folder;
   folder.write("m.obj", "v 0 0 2\nv 3 0 2\nv 3 1 2\nv 0 1 2\nf 1 2 3 4\n");
-  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "flux": 3200})", std::string(square) + R"(}, {"file": "m.obj", "unmapped": "white"})"},
+  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "flux": 3200})",
+                              std::string(square) + R"(}, {"file": "m.obj", "unmapped": "white"})"},
                              folder.path());
   ASSERT_EQ(scene.materials.size(), 2u);
   EXPECT_EQ(scene.materials[0].sides, Sides::front);
@@ -82,22 +87,27 @@ TEST(SceneFile, flux_is_shared_once_where_a_material_has_two_meanings_of_sides) 
 TEST(SceneFile, sides_that_are_given_hold_everywhere) {
   const test::Folder folder;
   folder.write("m.obj", "v 0 0 2\nv 3 0 2\nv 3 1 2\nf 1 2 3\n");
-  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "sides": "front"})", std::string(square) + R"(}, {"file": "m.obj", "unmapped": "white"})"},
+  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "sides": "front"})",
+                              std::string(square) + R"(}, {"file": "m.obj", "unmapped": "white"})"},
                              folder.path());
   ASSERT_EQ(scene.materials.size(), 1u);
   EXPECT_EQ(scene.materials[0].sides, Sides::front);
 }
 
 TEST(SceneFile, holes_are_cut_out) {
-  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5})", std::string(square) + R"(, "holes": [[[0.25,0.25,0],[0.75,0.25,0],[0.75,0.75,0],[0.25,0.75,0]]]})"});
+  const Scene scene =
+      parsed({"", R"("white": {"reflectance": 0.5})",
+              std::string(square) + R"(, "holes": [[[0.25,0.25,0],[0.75,0.25,0],[0.75,0.75,0],[0.25,0.75,0]]]})"});
   EXPECT_DOUBLE_EQ(scene.area(SurfaceId{0}), 0.75);
   EXPECT_EQ(scene.surfaces[0].outline->holes.size(), 1u);
 }
 
 TEST(SceneFile, boxes_face_outwards_or_inwards) {
   for (const std::string facing : {"outward", "inward"}) {
-    const Scene scene = parsed({"", R"("white": {"reflectance": 0.5})",
-                                R"({"box": {"min": [1,2,3], "max": [2,4,6]}, "material": "white", "name": "b", "facing": ")" + facing + "\"}"});
+    const Scene scene =
+        parsed({"", R"("white": {"reflectance": 0.5})",
+                R"({"box": {"min": [1,2,3], "max": [2,4,6]}, "material": "white", "name": "b", "facing": ")" + facing +
+                    "\"}"});
     ASSERT_EQ(scene.surfaces.size(), 6u);
     const Vec3 centre(1.5, 3, 4.5);
     for (const Facet& facet : scene.facets) {
@@ -112,8 +122,10 @@ TEST(SceneFile, boxes_face_outwards_or_inwards) {
 }
 
 TEST(SceneFile, transforms_scale_then_turn_about_x_y_z_then_move) {
-  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5})",
-                              std::string(square) + R"(, "transform": {"scale": 2, "rotate_deg_xyz": [90, 0, 90], "translate": [10, 20, 30]}})"});
+  const Scene scene =
+      parsed({"", R"("white": {"reflectance": 0.5})",
+              std::string(square) +
+                  R"(, "transform": {"scale": 2, "rotate_deg_xyz": [90, 0, 90], "translate": [10, 20, 30]}})"});
   // (x, y, 0) -> 2 (x, y, 0) -> about x: (2x, 0, 2y) -> about z: (0, 2x, 2y) -> moved; quarter turns are exact.
   const auto& ring = scene.surfaces[0].outline->outer;
   EXPECT_EQ(ring[0], Vec3(10, 20, 30));
@@ -123,8 +135,9 @@ TEST(SceneFile, transforms_scale_then_turn_about_x_y_z_then_move) {
 }
 
 TEST(SceneFile, transforms_keep_a_box_outward) {
-  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5})",
-                              R"({"box": {"min": [-1,-1,-1], "max": [1,1,1]}, "material": "white", "transform": {"rotate_deg_xyz": [33, -71, 120], "scale": 0.3}})"});
+  const Scene scene = parsed(
+      {"", R"("white": {"reflectance": 0.5})",
+       R"({"box": {"min": [-1,-1,-1], "max": [1,1,1]}, "material": "white", "transform": {"rotate_deg_xyz": [33, -71, 120], "scale": 0.3}})"});
   for (const Facet& facet : scene.facets) EXPECT_NEAR(facet.normal.dot(facet.corner[0]), 0.3, 1e-15);
   EXPECT_NEAR(scene.area(SurfaceId{2}), 0.36, 1e-15);
 }
@@ -141,11 +154,13 @@ TEST(SceneFile, oddities_are_warned_of) {
   Text unused{"", R"("white": {"reflectance": 0.5, "exitance": 1}, "red": {"reflectance": 0.5})"};
   EXPECT_EQ(warnings(unused), "s.json: the material 'red' is not used\n");
   lit.units = "mm";
-  EXPECT_EQ(warnings(lit), "s.json: the scene measures 0.001 x 0.001 x 0 m: a side outside 0.1 m .. 1 km; are its \"units\" right?\n");
+  EXPECT_EQ(warnings(lit),
+            "s.json: the scene measures 0.001 x 0.001 x 0 m: a side outside 0.1 m .. 1 km; are its \"units\" right?\n");
 }
 
 TEST(SceneFile, surfaces_of_one_name_are_told_apart_and_warned_of) {
-  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "exitance": 1})", std::string(square) + "}, " + square + R"(, "transform": {"translate": [0,0,1]}})"});
+  const Scene scene = parsed({"", R"("white": {"reflectance": 0.5, "exitance": 1})",
+                              std::string(square) + "}, " + square + R"(, "transform": {"translate": [0,0,1]}})"});
   EXPECT_EQ(scene.surfaces[0].name, "square");
   EXPECT_EQ(scene.surfaces[1].name, "square-2");
   ASSERT_EQ(scene.warnings.size(), 1u);

@@ -45,7 +45,8 @@ TEST(ShippedScenes, our_own_have_no_warnings_flipped_normals_or_overlaps) {
 }
 
 TEST(ShippedScenes, rooms_are_closed) {
-  for (const char* name : {"office.json", "two_rooms.json", "furnace.json", "concentric_cubes.json", "cube.json", "sphere.json"}) {
+  for (const char* name :
+       {"office.json", "two_rooms.json", "furnace.json", "concentric_cubes.json", "cube.json", "sphere.json"}) {
     const std::filesystem::path file = std::filesystem::path(INTERFLECT_SOURCE_DIR "/data/scenes") / name;
     if (!std::filesystem::exists(file)) continue;
     EXPECT_TRUE(inspect(read_scene(file)).closed()) << name;

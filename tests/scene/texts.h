@@ -17,7 +17,8 @@ class Folder {
  public:
   Folder() {
     static std::atomic<int> next{0};
-    path_ = std::filesystem::temp_directory_path() / ("interflect-scene-" + std::to_string(::getpid()) + "-" + std::to_string(next++));
+    path_ = std::filesystem::temp_directory_path() /
+            ("interflect-scene-" + std::to_string(::getpid()) + "-" + std::to_string(next++));
     std::filesystem::create_directories(path_);
   }
   ~Folder() {
@@ -47,15 +48,19 @@ struct Text {
   std::string str() const {  // the line of each key is part of what tests check
     return "{\n"
            "\"format\": \"interflect/scene/1\",\n"
-           "\"units\": \"" + units + "\",\n" +
-           (more.empty() ? "" : more + ",\n") +
-           "\"materials\": {" + materials + "},\n"
-           "\"geometry\": [" + geometry + "]\n"
+           "\"units\": \"" +
+           units + "\",\n" + (more.empty() ? "" : more + ",\n") + "\"materials\": {" + materials +
+           "},\n"
+           "\"geometry\": [" +
+           geometry +
+           "]\n"
            "}\n";
   }
 };
 
-inline Scene parsed(const Text& text, const std::filesystem::path& folder = ".") { return parse_scene(text.str(), "s.json", folder); }
+inline Scene parsed(const Text& text, const std::filesystem::path& folder = ".") {
+  return parse_scene(text.str(), "s.json", folder);
+}
 
 /// What is said of a bad scene; "read" of a good one.  More than one line is said so.
 inline std::string complaint(const std::string& text, const std::filesystem::path& folder = ".") {
@@ -67,6 +72,8 @@ inline std::string complaint(const std::string& text, const std::filesystem::pat
     return what.find('\n') == std::string::npos ? what : "MORE THAN ONE LINE: " + what;
   }
 }
-inline std::string complaint(const Text& text, const std::filesystem::path& folder = ".") { return complaint(text.str(), folder); }
+inline std::string complaint(const Text& text, const std::filesystem::path& folder = ".") {
+  return complaint(text.str(), folder);
+}
 
 }  // namespace interflect::scene::test

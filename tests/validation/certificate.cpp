@@ -29,13 +29,14 @@ TEST(Certificate, good_data_pass_with_a_verdict_in_one_sentence) {
   EXPECT_TRUE(c.passed) << c.verdict;
   EXPECT_TRUE(c.reasons.empty());
   EXPECT_EQ(c.verdict.rfind("FEM within 1.", 0), 0u) << c.verdict;
-  EXPECT_NE(c.verdict.find(" % (L2 of H) of the path-traced reference, whose own 95 % error is 1."), std::string::npos) << c.verdict;
+  EXPECT_NE(c.verdict.find(" % (L2 of H) of the path-traced reference, whose own 95 % error is 1."), std::string::npos)
+      << c.verdict;
   EXPECT_EQ(c.elements, 500u);
 }
 
 TEST(Certificate, good_data_pass_at_every_seed) {
-  // Chance fails a set at alpha = 0.01 only through the mean (a 501st part of it) and through a share below 0.99 (more than 5
-  // of 500 beyond 3 sigma plus a bound of 3 sigma: negligible).
+  // Chance fails a set at alpha = 0.01 only through the mean (a 501st part of it) and through a share below 0.99 (more
+  // than 5 of 500 beyond 3 sigma plus a bound of 3 sigma: negligible).
   for (std::uint64_t seed = 0; seed < 200; ++seed)
     EXPECT_TRUE(certificate_of(synthetic::judged({.spread = 0.01, .bound = 0.03}, seed)).passed) << seed;
 }
@@ -106,8 +107,10 @@ TEST(Certificate, the_worst_surface_is_named_and_emitters_are_left_out_where_ask
 TEST(Certificate, expectations_of_the_scene_are_checked_against_both_methods) {
   scene::Scene scene = synthetic::scene();
   using Statistic = scene::Expected::Statistic;
-  scene.expected = {{"desk", Statistic::mean, 200, 0.01, "a book"}, {"desk", Statistic::min, 100, 0.01, ""},
-                    {"desk", Statistic::max, 300, 0.01, ""},        {"desk", Statistic::mean, 210, 0.01, ""},
+  scene.expected = {{"desk", Statistic::mean, 200, 0.01, "a book"},
+                    {"desk", Statistic::min, 100, 0.01, ""},
+                    {"desk", Statistic::max, 300, 0.01, ""},
+                    {"desk", Statistic::mean, 210, 0.01, ""},
                     {"chair", Statistic::mean, 1, 0.01, ""}};
   std::vector<Judged> judged = synthetic::judged({}, 1);
   for (int i = 0; i < 3; ++i) {
@@ -135,7 +138,8 @@ TEST(Certificate, nothing_judged_is_not_a_pass) { EXPECT_FALSE(certificate_of({}
 TEST(Certificate, a_sampled_balance_adds_what_surfaces_absorb_with_its_error) {
   const double areas[] = {2, 3};
   const Spectrum reflectances[] = {Spectrum(0.5), Spectrum(0)};
-  const Estimate irradiance[] = {unbiased_estimate(Spectrum(10), Spectrum(0.3), 9), unbiased_estimate(Spectrum(20), Spectrum(0.1), 9)};
+  const Estimate irradiance[] = {unbiased_estimate(Spectrum(10), Spectrum(0.3), 9),
+                                 unbiased_estimate(Spectrum(20), Spectrum(0.1), 9)};
   const EnergyBalance b = sampled_energy(Spectrum(100), areas, reflectances, irradiance);
   EXPECT_DOUBLE_EQ(b.absorbed[0], 70);
   EXPECT_DOUBLE_EQ(b.lost[0], 30);

@@ -36,8 +36,8 @@ TEST(Comparison, agreement_is_bound_plus_three_combined_standard_errors) {
 
 TEST(Comparison, an_unknown_bound_or_standard_error_never_agrees) {
   const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Judged& j : {one(100, 100, 0, 1, inf), one(100, 100, 0, inf, 1), one(100, 100, 0, 1, nan), one(nan, 100, 0, 1, 1),
-                          one(100, 100, nan, 1, 1)}) {
+  for (const Judged& j : {one(100, 100, 0, 1, inf), one(100, 100, 0, inf, 1), one(100, 100, 0, 1, nan),
+                          one(nan, 100, 0, 1, 1), one(100, 100, nan, 1, 1)}) {
     const Difference d = difference(j, synthetic::grey);
     EXPECT_FALSE(d.known);
     EXPECT_FALSE(d.agrees);
@@ -59,7 +59,8 @@ TEST(Comparison, a_channel_without_weight_counts_nothing_even_if_it_is_infinite)
 }
 
 TEST(Comparison, noise_alone_stays_below_the_limit_in_all_but_alpha_of_the_sets) {
-  // 400 sets of 500 at alpha = 0.05: 20 expected beyond for the largest z; binomial, 5 sigma = 22.  The mean's limit is wider.
+  // 400 sets of 500 at alpha = 0.05: 20 expected beyond for the largest z; binomial, 5 sigma = 22.  The mean's limit is
+  // wider.
   const double z_max = sidak_z_max(0.05, 500);
   int beyond = 0, drifting = 0;
   for (std::uint64_t set = 0; set < 400; ++set) {

@@ -74,5 +74,6 @@ TEST(ElementChoice, the_seed_alone_decides_and_each_element_has_its_chance) {
   std::set<std::int64_t> seen;
   for (std::uint64_t seed = 0; seed < 400; ++seed)
     for (const ChosenElement& c : choose_elements(e.areas, e.surface, 57, seed)) seen.insert(c.element);
-  EXPECT_EQ(seen.size(), e.areas.size());  // each has a chance of 1/20: missing one of 1 111 in 400 draws has probability 1e-6
+  EXPECT_EQ(seen.size(),
+            e.areas.size());  // each has a chance of 1/20: missing one of 1 111 in 400 draws has probability 1e-6
 }

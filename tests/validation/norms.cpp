@@ -76,15 +76,16 @@ TEST(Norms, the_maximum_is_relative_to_the_mean_irradiance_and_names_its_place) 
 }
 
 TEST(Norms, intervals_cover_the_truth_and_l2_is_unbiased_where_noise_is_as_large_as_the_error) {
-  // 1 000 sets; coverage 0.95 has sigma 6.9.  The delta method is asymptotic in 500 measurements of unequal areas (effective
-  // number about 150): one percent is allowed below, besides 4 sigma: 950 - 10 - 28.  L1's interval is conservative by design.
+  // 1 000 sets; coverage 0.95 has sigma 6.9.  The delta method is asymptotic in 500 measurements of unequal areas
+  // (effective number about 150): one percent is allowed below, besides 4 sigma: 950 - 10 - 28.  L1's interval is
+  // conservative by design.
   const Coverage c = cover({.noise = 0.01, .spread = 0.01}, 1000);
   EXPECT_GE(c.l2, 912);
   EXPECT_LE(c.l2, 985);
   EXPECT_GE(c.l1, 950);
   const double sigma = std::sqrt(c.square_of_square / 1000);
   EXPECT_LT(std::abs(c.mean_square), 4 * sigma);
-  EXPECT_GT(c.mean_true_square, 100 * sigma);  // and a missing correction (100 %) would be seen
+  EXPECT_GT(c.mean_true_square, 100 * sigma);        // and a missing correction (100 %) would be seen
   EXPECT_NEAR(c.mean_l1 / c.mean_true_l1, 1, 0.01);  // its factor is right for normal errors
 }
 
@@ -132,8 +133,8 @@ TEST(Norms, the_references_own_error_is_exceeded_in_one_set_of_twenty) {
 }
 
 TEST(Norms, chosen_elements_stand_for_those_that_were_not) {
-  // 5 000 elements whose errors vary inside surfaces; 500 chosen at random, each standing for ten.  The interval must cover the
-  // norm of all, though the reference is exact: its width is that of the choice.
+  // 5 000 elements whose errors vary inside surfaces; 500 chosen at random, each standing for ten.  The interval must
+  // cover the norm of all, though the reference is exact: its width is that of the choice.
   const std::vector<Judged> all = synthetic::judged({.count = 5000, .noise = 0, .claimed_noise = 0, .spread = 0.02}, 4);
   const Truth truth = truth_of(all);
   int covered = 0, covered_l1 = 0;

@@ -64,7 +64,8 @@ TEST(Statistics, sidaks_limit_has_its_tabulated_values) {
 }
 
 TEST(Statistics, the_quantile_of_a_sum_of_squares_is_that_of_chi_square) {
-  // chi²_0.95 with 1, 10, 100 degrees: 3.841459, 18.30704, 124.3421; mean nu, variance 2 nu.  The cube root is within 3 %.
+  // chi²_0.95 with 1, 10, 100 degrees: 3.841459, 18.30704, 124.3421; mean nu, variance 2 nu.  The cube root is within 3
+  // %.
   EXPECT_NEAR(sum_of_squares_quantile(1, 2, 0.95) / 3.841459, 1, 0.03);
   EXPECT_NEAR(sum_of_squares_quantile(10, 20, 0.95) / 18.30704, 1, 1e-3);
   EXPECT_NEAR(sum_of_squares_quantile(100, 200, 0.95) / 124.3421, 1, 1e-4);

@@ -58,9 +58,9 @@ inline std::vector<validation::Judged> judged(const Plan& plan, std::uint64_t se
 }
 
 inline const validation::Reading grey{"grey", [] {
-  Spectrum s;
-  s[0] = 1;
-  return s;
-}()};
+                                        Spectrum s;
+                                        s[0] = 1;
+                                        return s;
+                                      }()};
 
 }  // namespace synthetic

@@ -29,7 +29,8 @@ std::unique_ptr<visual::Display> Picture::display_;
 
 Colour pixel(const core::Image& image, int x, int y) {
   Colour out;
-  for (int c = 0; c < 3; ++c) out[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * image.at(x, y, c)));
+  for (int c = 0; c < 3; ++c)
+    out[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * image.at(x, y, c)));
   return out;
 }
 
@@ -155,7 +156,9 @@ TEST_F(Picture, true_colour_is_tone_mapped_radiance) {
       if (!inside(floor, camera, x, y, 2)) continue;
       const int element = element_at(floor, camera, x, y, 2);
       // sRGB of 0.5, 0.25, 0: 188, 137, 0; of 2 (clipped), 1, 0.5: 255, 255, 188.
-      const Colour expected = element < 0 ? Colour{0, 0, 0} : element == 3 ? Colour{255, 255, 188} : Colour{188, 137, 0};
+      const Colour expected = element < 0    ? Colour{0, 0, 0}
+                              : element == 3 ? Colour{255, 255, 188}
+                                             : Colour{188, 137, 0};
       ASSERT_EQ(pixel(image, x, y), expected) << x << ' ' << y;
     }
 }

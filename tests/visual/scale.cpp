@@ -9,7 +9,8 @@
 using namespace interflect::visual;
 
 TEST(Scale, numbers_are_rounded_up_to_round_ones) {
-  const std::pair<double, double> known[] = {{0.97, 1}, {1, 1}, {1.01, 1.2}, {437, 500}, {6.1e-7, 8e-7}, {8.5, 10}, {0, 1}, {-3, 1}};
+  const std::pair<double, double> known[] = {{0.97, 1},      {1, 1},    {1.01, 1.2}, {437, 500},
+                                             {6.1e-7, 8e-7}, {8.5, 10}, {0, 1},      {-3, 1}};
   for (const auto& [x, round] : known) EXPECT_NEAR(round_up(x) / round, 1, 1e-12) << x;
 }
 

@@ -1,0 +1,41 @@
+# The README's table of agreement, measured:  cmake -P scripts/agreement.cmake
+# Validates each scene with the program of the release build and prints a line of Markdown for it.
+
+cmake_minimum_required(VERSION 3.25)
+set(program ${CMAKE_CURRENT_LIST_DIR}/../build/release/bin/interflect)
+set(scenes cornell_box office two_rooms cornell_mcguire holodeck)
+
+# "0.004248" -> "0.42 %"
+function(percent value out)
+  execute_process(COMMAND printf "%.2f" "${value}e2" OUTPUT_VARIABLE text)
+  set(${out} "${text} %" PARENT_SCOPE)
+endfunction()
+
+message("| scene | elements | measurements | FEM - path tracing, L2 of H (95 %) | FEM's own estimate | reference (95 %) | agree | time |")
+message("|---|---|---|---|---|---|---|---|")
+foreach(scene IN LISTS scenes)
+  set(out ${CMAKE_CURRENT_LIST_DIR}/../out/agreement/${scene})
+  string(TIMESTAMP start "%s")
+  execute_process(COMMAND ${program} validate ${CMAKE_CURRENT_LIST_DIR}/../data/scenes/${scene}.json -o ${out} --quiet
+                  RESULT_VARIABLE status)
+  string(TIMESTAMP end "%s")
+  if(status GREATER 1)
+    message(FATAL_ERROR "${scene}: status ${status}")
+  endif()
+  math(EXPR seconds "${end} - ${start}")
+  file(READ ${out}/validation.json json)
+  foreach(kind surfaces elements sensors)
+    string(JSON ${kind} GET "${json}" judged ${kind})
+  endforeach()
+  math(EXPR measurements "${surfaces} + ${elements} + ${sensors}")
+  string(JSON size GET "${json}" run elements)
+  string(JSON l2 GET "${json}" judgements 0 elements all l2 value)
+  string(JSON high GET "${json}" judgements 0 elements all l2 high)
+  string(JSON claimed GET "${json}" judgements 0 elements all claimed_error)
+  string(JSON reference GET "${json}" judgements 0 elements all reference_error)
+  string(JSON share GET "${json}" judgements 0 share_agreeing)
+  foreach(name l2 high claimed reference share)
+    percent(${${name}} ${name})
+  endforeach()
+  message("| `${scene}` | ${size} | ${measurements} | ${l2} (below ${high}) | ${claimed} | ${reference} | ${share} | ${seconds} s |")
+endforeach()
