@@ -38,13 +38,15 @@ void print(const scene::Scene& scene, const fem::RadiositySolution& s, double se
   getrusage(RUSAGE_SELF, &usage);
   const fem::ErrorSummary error = fem::summarise_error(s, scene.weights);
   std::printf("pairs: %.1f million, %.0f ns each; away %.3g, clear %.3g, sampled %.3g by %.3g rays\n", pairs * 1e-6,
-              assembly / pairs * 1e9, double(s.pairs.facing_away), double(s.pairs.clear), double(s.pairs.sampled), double(s.pairs.rays));
-  std::printf("closed: %s; row sums %.6f .. %.6f .. %.6f; solver sweeps %d\n", s.closed ? "yes" : "no", s.rows.lowest, s.rows.mean,
-              s.rows.highest, s.solver.iterations);
-  std::printf("mean H %.2f; estimated error %.2f %%, noise %.2f %% (L2)\n", error.mean_irradiance, 100 * error.relative_l2,
-              100 * error.relative_noise_l2);
-  std::printf("total %.2f s (limit 60 at 5000; forecast %.1f), operator %.0f MB (forecast %.0f), peak of the process %.0f MB\n", seconds,
-              forecast.seconds, s.bytes * 1e-6, forecast.bytes * 1e-6, double(usage.ru_maxrss) * 1e-3);
+              assembly / pairs * 1e9, double(s.pairs.facing_away), double(s.pairs.clear), double(s.pairs.sampled),
+              double(s.pairs.rays));
+  std::printf("closed: %s; row sums %.6f .. %.6f .. %.6f; solver sweeps %d\n", s.closed ? "yes" : "no", s.rows.lowest,
+              s.rows.mean, s.rows.highest, s.solver.iterations);
+  std::printf("mean H %.2f; estimated error %.2f %%, noise %.2f %% (L2)\n", error.mean_irradiance,
+              100 * error.relative_l2, 100 * error.relative_noise_l2);
+  std::printf(
+      "total %.2f s (limit 60 at 5000; forecast %.1f), operator %.0f MB (forecast %.0f), peak of the process %.0f MB\n",
+      seconds, forecast.seconds, s.bytes * 1e-6, forecast.bytes * 1e-6, double(usage.ru_maxrss) * 1e-3);
 }
 
 }  // namespace
@@ -61,8 +63,8 @@ int main(int argc, char** argv) try {
   const auto start = std::chrono::steady_clock::now();
   const fem::RadiositySolution solution = fem::solve_radiosity(scene, settings, run.get());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%s: %td elements of at most %.3f m, %u threads\n", file.c_str(), solution.mesh.size(), settings.element_size,
-              run.get().threads.count());
+  std::printf("%s: %td elements of at most %.3f m, %u threads\n", file.c_str(), solution.mesh.size(),
+              settings.element_size, run.get().threads.count());
   print(scene, solution, seconds, forecast);
 } catch (const core::InputError& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -1,7 +1,7 @@
-// How close the visibility stage of assembly comes to its rays alone: the same segments in the same order, first recorded, then cast
-// (a) by the stage itself, which makes points and weights, casts, and estimates; (b) by the caster from the record, in the stage's
-// batches; (c) the same, one segment at a time; (d) by a bare Embree loop over packets of eight made beforehand, without any of
-// our code.  Interleaved rounds, medians of CPU time, one thread.
+// How close the visibility stage of assembly comes to its rays alone: the same segments in the same order, first recorded,
+// then cast (a) by the stage itself, which makes points and weights, casts, and estimates; (b) by the caster from the record,
+// in the stage's batches; (c) the same, one segment at a time; (d) by a bare Embree loop over packets of eight made
+// beforehand, without any of our code.  Interleaved rounds, medians of CPU time, one thread.
 //
 //   bench_visibility [SCENE [ELEMENTS [RAYS]]]      default: data/scenes/office.json 1500 16
 
@@ -56,14 +56,17 @@ std::vector<Pair> sampled_pairs(const scene::Scene& scene, std::span<const scene
 /// The facets in Embree and the segments as packets, about the scene's centre, in single precision.
 class BareEmbree {
  public:
-  BareEmbree(const scene::Scene& scene, std::span<const raycast::Segment> segments, double offset) : device_(rtcNewDevice(nullptr)) {
+  BareEmbree(const scene::Scene& scene, std::span<const raycast::Segment> segments, double offset)
+      : device_(rtcNewDevice(nullptr)) {
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::size_t n = scene.facets.size();
     const Vec3 centre = scene.box().center();
-    auto* corner = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * n));
-    auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, n));
+    auto* corner =
+        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * n));
+    auto* index =
+        static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, n));
     for (unsigned k = 0; k < 3 * n; ++k) {
       index[k] = k;
       const Vec3 p = scene.facets[k / 3].corner[k % 3] - centre;
@@ -75,7 +78,8 @@ class BareEmbree {
     rtcCommitScene(scene_);
     packets_.resize(segments.size() / 8);
     for (std::size_t k = 0; k < 8 * packets_.size(); ++k) {
-      const Vec3 from = segments[k].from + offset * segments[k].from_normal - centre, to = segments[k].to + offset * segments[k].to_normal - centre;
+      const Vec3 from = segments[k].from + offset * segments[k].from_normal - centre,
+                 to = segments[k].to + offset * segments[k].to_normal - centre;
       set(packets_[k / 8], k % 8, from, to - from);
     }
   }
@@ -103,8 +107,10 @@ class BareEmbree {
 
  private:
   static void set(RTCRay8& r, std::size_t lane, const Vec3& from, const Vec3& along) {
-    r.org_x[lane] = static_cast<float>(from.x()), r.org_y[lane] = static_cast<float>(from.y()), r.org_z[lane] = static_cast<float>(from.z());
-    r.dir_x[lane] = static_cast<float>(along.x()), r.dir_y[lane] = static_cast<float>(along.y()), r.dir_z[lane] = static_cast<float>(along.z());
+    r.org_x[lane] = static_cast<float>(from.x()), r.org_y[lane] = static_cast<float>(from.y()),
+    r.org_z[lane] = static_cast<float>(from.z());
+    r.dir_x[lane] = static_cast<float>(along.x()), r.dir_y[lane] = static_cast<float>(along.y()),
+    r.dir_z[lane] = static_cast<float>(along.z());
     r.tnear[lane] = r.time[lane] = 0;
     r.tfar[lane] = 1;
     r.mask[lane] = ~0u;
@@ -158,7 +164,8 @@ int main(int argc, char** argv) try {
     }));
     batches.push_back(seconds([&] {
       for (std::size_t k = 0; k + 1 < first.size(); ++k)
-        rays->occluded(std::span(segments).subspan(first[k], first[k + 1] - first[k]), std::span(blocked).subspan(first[k]));
+        rays->occluded(std::span(segments).subspan(first[k], first[k + 1] - first[k]),
+                       std::span(blocked).subspan(first[k]));
     }));
     bare.push_back(seconds([&] { blocked_by_embree = embree.cast(); }));
     single.push_back(seconds([&] {
@@ -167,13 +174,14 @@ int main(int argc, char** argv) try {
   }
   const double n = static_cast<double>(segments.size()), whole = median(stage) / n, cast = median(batches) / n;
   const double packets = median(bare) / static_cast<double>(embree.rays());
-  std::printf("%td elements, %zu pairs, %.0f rays (%.1f %% blocked; bare Embree %.1f %%), mean V %.3f\n", mesh.size(), pairs.size(), n,
-              100.0 * static_cast<double>(std::count(blocked.begin(), blocked.end(), 1)) / n,
+  std::printf("%td elements, %zu pairs, %.0f rays (%.1f %% blocked; bare Embree %.1f %%), mean V %.3f\n", mesh.size(),
+              pairs.size(), n, 100.0 * static_cast<double>(std::count(blocked.begin(), blocked.end(), 1)) / n,
               100.0 * static_cast<double>(blocked_by_embree) / static_cast<double>(embree.rays()),
               visible / rounds / static_cast<double>(pairs.size()));
-  std::printf("stage %4.0f, caster in batches %4.0f, one by one %4.0f, bare Embree %4.0f ns a ray\n", whole * 1e9, cast * 1e9,
-              median(single) / n * 1e9, packets * 1e9);
-  std::printf("the stage reaches %.0f %% of the caster's rate and %.0f %% of bare Embree's (limit 60)\n", 100 * cast / whole, 100 * packets / whole);
+  std::printf("stage %4.0f, caster in batches %4.0f, one by one %4.0f, bare Embree %4.0f ns a ray\n", whole * 1e9,
+              cast * 1e9, median(single) / n * 1e9, packets * 1e9);
+  std::printf("the stage reaches %.0f %% of the caster's rate and %.0f %% of bare Embree's (limit 60)\n",
+              100 * cast / whole, 100 * packets / whole);
 } catch (const core::InputError& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

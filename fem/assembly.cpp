@@ -6,7 +6,8 @@
 
 namespace interflect::fem {
 
-PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
+PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink,
+                    Run& run) {
   const auto n = static_cast<Index>(patches.size());
   const Index block = std::clamp<Index>(n / 24, 64, 512), blocks = (n + block - 1) / block;
   std::vector<std::pair<Index, Index>> tasks;

@@ -6,10 +6,11 @@ namespace interflect::fem {
 
 /// Every pair of elements, asked of `method` in blocks of rows and columns of the upper triangle, in parallel.
 /// Same entries for any number of threads.  @throws core::Interrupted
-PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run);
+PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink,
+                    Run& run);
 
-/// K of elements that each consist of four: K_IJ = sum of K_ij over the children i of I and j of J, because K is additive; standard
-/// errors are added in squares.  @param fine  children 4I .. 4I + 3
+/// K of elements that each consist of four: K_IJ = sum of K_ij over the children i of I and j of J, because K is additive;
+/// standard errors are added in squares.  @param fine  children 4I .. 4I + 3
 std::unique_ptr<DenseSymmetric> aggregated(const DenseSymmetric& fine, Run& run);
 
 }  // namespace interflect::fem

@@ -37,7 +37,8 @@ raycast::Ray ray_from(const scene::SurfacePatch& patch, core::RandomNumbers& ran
   const double radius_squared = random.next(), angle = 2.0 * pi * random.next();
   const Vec3 n = patch.normal(), u = n.unitOrthogonal(), v = n.cross(u);
   const double radius = std::sqrt(radius_squared);
-  const Vec3 direction = radius * std::cos(angle) * u + radius * std::sin(angle) * v + std::sqrt(1.0 - radius_squared) * n;
+  const Vec3 direction =
+      radius * std::cos(angle) * u + radius * std::sin(angle) * v + std::sqrt(1.0 - radius_squared) * n;
   return {from.position, direction.normalized(), n};
 }
 
@@ -48,8 +49,8 @@ struct Tally {
 
 }  // namespace
 
-LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, std::span<const Spectrum> radiosity,
-                        const raycast::RayCaster& rays, Run& run) {
+LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                        std::span<const Spectrum> radiosity, const raycast::RayCaster& rays, Run& run) {
   const std::vector<double> shares = cumulative_shares(scene, patches, radiosity);
   const std::uint64_t seed = core::derived_seed(run.seed, "lost flux");
   std::vector<Tally> tallies(static_cast<std::size_t>(ray_count / ray_block));
@@ -77,8 +78,12 @@ LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::Surfac
     total.on_backs.merge(tally.on_backs);
     total.lost += tally.lost;
   }
-  return {total.escaped.mean(), total.on_backs.mean(), total.escaped.standard_error(), total.on_backs.standard_error(),
-          static_cast<std::uint64_t>(ray_count), total.lost};
+  return {total.escaped.mean(),
+          total.on_backs.mean(),
+          total.escaped.standard_error(),
+          total.on_backs.standard_error(),
+          static_cast<std::uint64_t>(ray_count),
+          total.lost};
 }
 
 EnergyBalance energy_balance(const RadiositySolution& s, const LostRays& lost) {
@@ -92,7 +97,8 @@ EnergyBalance energy_balance(const RadiositySolution& s, const LostRays& lost) {
   }
   energy.escaped = lost.escaped;
   energy.on_backs = lost.on_backs;
-  energy.split_error = lost.escaped_error.map([](double e) { return e * e; }) + lost.on_backs_error.map([](double e) { return e * e; });
+  energy.split_error =
+      lost.escaped_error.map([](double e) { return e * e; }) + lost.on_backs_error.map([](double e) { return e * e; });
   energy.split_error = energy.split_error.map([](double v) { return std::sqrt(v); });
   energy.form_factor_error = unaccounted - lost.escaped - lost.on_backs;
   energy.residual = energy.emitted - energy.absorbed - unaccounted;

@@ -20,7 +20,8 @@ Spectrum larger(const Spectrum& a, const Spectrum& b) {
 }
 
 /// Area-weighted root mean square of some of the elements' values.
-Spectrum root_mean_square(const mesh::ElementMesh& mesh, std::span<const Spectrum> values, std::size_t first, std::size_t count) {
+Spectrum root_mean_square(const mesh::ElementMesh& mesh, std::span<const Spectrum> values, std::size_t first,
+                          std::size_t count) {
   Spectrum sum;
   double area = 0.0;
   for (std::size_t i = first; i < first + count; ++i) {
@@ -125,7 +126,9 @@ void estimate_errors(RadiositySolution& s, const ErrorSources& from, int channel
   s.field_error.resize(s.radiosity.size());
   for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
     s.irradiance_error[i] += neighbours[i] + from.quadrature_tolerance * (bounces * s.irradiance[i]) + solver;
-    if (s.closed) s.irradiance_error[i] += std::max(0.0, std::abs(1.0 - from.row_sum_before[i]) - 2 * row_noise[i]) * mean_radiosity;
+    if (s.closed)
+      s.irradiance_error[i] +=
+          std::max(0.0, std::abs(1.0 - from.row_sum_before[i]) - 2 * row_noise[i]) * mean_radiosity;
     s.field_error[i] = s.reflectance[i] * irradiance_variation(s, i);
   }
 }

@@ -7,17 +7,17 @@ namespace interflect::fem {
 
 /// What the error of a solution is estimated from.
 struct ErrorSources {
-  const DenseSymmetric& K;                     ///< on the fine mesh; its errors are those of its entries
-  std::span<const double> row_sum_before;      ///< sum_j F_ij before any closure was restored
-  double quadrature_tolerance = 0;             ///< relative, of entries
+  const DenseSymmetric& K;                 ///< on the fine mesh; its errors are those of its entries
+  std::span<const double> row_sum_before;  ///< sum_j F_ij before any closure was restored
+  double quadrature_tolerance = 0;         ///< relative, of entries
 };
 
 /// Fills irradiance_error, irradiance_noise and field_error of a solution whose other fields are there.
 ///
-/// Discretisation.  D = G^-1 K (B_h - P B_2h): what the iterated irradiance of each element owes to halving the elements, with the
-/// same K for both, so that no noise of visibility is in it.  Where errors fall as h^p, |D| is (2^p - 1) times the error that is
-/// left at h, so at least the error for p >= 1; means of constants have p = 2 where the solution is smooth, 1.5 to 2 beside edges.
-/// A zero of D is a place where the sign changes and not one without error, so that the bound is
+/// Discretisation.  D = G^-1 K (B_h - P B_2h): what the iterated irradiance of each element owes to halving the elements,
+/// with the same K for both, so that no noise of visibility is in it.  Where errors fall as h^p, |D| is (2^p - 1) times the
+/// error that is left at h, so at least the error for p >= 1; means of constants have p = 2 where the solution is smooth, 1.5
+/// to 2 beside edges. A zero of D is a place where the sign changes and not one without error, so that the bound is
 ///
 ///   max(|D_i|, rms of D over the four children of i's parent, 1/2 rms of D over i's side of its surface)
 ///
@@ -26,12 +26,13 @@ struct ErrorSources {
 /// plus  closure, in closed scenes: |1 - row sum_i| beyond twice its standard error, times the mean radiosity;
 /// plus  solver: residual times max B / (1 - max rho).
 ///
-/// Noise.  var_i = sum_j (error_ij B_j / A_i)² is that of one bounce off B; later bounces see means over many elements, so that they
-/// add the same to all:  (rho / (1 - rho))² sum_k (A_k / A)² var_k  with the mean rho.  An element that sees little but one other has more.
+/// Noise.  var_i = sum_j (error_ij B_j / A_i)² is that of one bounce off B; later bounces see means over many elements, so
+/// that they add the same to all:  (rho / (1 - rho))² sum_k (A_k / A)² var_k  with the mean rho.  An element that sees little
+/// but one other has more.
 ///
-/// Field.  Constants differ from the iterated B_1 by its variation inside the element.  For a linear field the root mean square over
-/// an element is 1/sqrt(3) of that between the four children of a parent, for triangles and parallelograms alike; that is what is
-/// taken:  field_error_i = rho_i rms_children(H_k - H_parent) / sqrt(3).
+/// Field.  Constants differ from the iterated B_1 by its variation inside the element.  For a linear field the root mean
+/// square over an element is 1/sqrt(3) of that between the four children of a parent, for triangles and parallelograms alike;
+/// that is what is taken:  field_error_i = rho_i rms_children(H_k - H_parent) / sqrt(3).
 /// Test: tests/fem/error_estimate.cpp, by coverage.
 void estimate_errors(RadiositySolution& solution, const ErrorSources& from, int channels, Run& run);
 

@@ -12,7 +12,7 @@ namespace interflect::fem {
 
 namespace {
 
-constexpr int deepest_part = 4;        // 4^4 parts of one element at most
+constexpr int deepest_part = 4;         // 4^4 parts of one element at most
 constexpr int most_rays_per_side = 32;  // of a part
 constexpr double far = 200.0;           // radii beyond which one node serves for an element: 2e-4 of it
 
@@ -57,7 +57,8 @@ Gather::Gather(const scene::Scene& scene, std::span<const scene::SurfacePatch> p
       blockers_(scene, shapes_.origin()) {}
 
 /// Cuts a part that is near: its quarters, each with its own factor and rays.
-void Gather::add_part(const Receiver& at, const scene::SurfacePatch& part, std::uint32_t path, int depth, Unproved& element) const {
+void Gather::add_part(const Receiver& at, const scene::SurfacePatch& part, std::uint32_t path, int depth,
+                      Unproved& element) const {
   const double factor = point_to_polygon(at.x, at.normal, part.ring());
   if (factor <= 0.0) return;
   const Vec3 centroid = part.centroid();
@@ -82,11 +83,12 @@ std::vector<Gather::Unproved> Gather::unproved_elements(const Receiver& at, Gath
       if (before <= shapes_.plane_tolerance() || at.horizon.distance(shape.centroid) <= -shape.radius) continue;
       const bool distant = (shape.centroid - at.local).squaredNorm() > far * far * shape.radius * shape.radius &&
                            at.horizon.distance(shape.centroid) > shape.radius;
-      const double factor = distant
-                                ? point_to_polygon_far(at.local, at.normal, shape.centroid, shape.plane.normal, shape.area)
-                                : point_to_polygon(at.local, at.normal, shape.ring());
+      const double factor =
+          distant ? point_to_polygon_far(at.local, at.normal, shape.centroid, shape.plane.normal, shape.area)
+                  : point_to_polygon(at.local, at.normal, shape.ring());
       if (factor <= 0.0) continue;
-      if (!candidates && cluster.rectangle) candidates = blockers_.candidates(geometry::Shaft(at.triangle, *cluster.rectangle));
+      if (!candidates && cluster.rectangle)
+        candidates = blockers_.candidates(geometry::Shaft(at.triangle, *cluster.rectangle));
       const bool clear = (candidates && candidates->empty()) || [&] {
         const geometry::Shaft shaft(at.triangle, shape.ring());
         return candidates ? !blockers_.any(shaft, *candidates) : !blockers_.any(shaft);
@@ -107,7 +109,8 @@ void Gather::cast(const Receiver& at, const Part& part, Index element, int side,
   rays.segments.clear();
   rays.weights.clear();
   for (int k = 0; k < side * side; ++k) {
-    const std::uint32_t number = part.path * static_cast<std::uint32_t>(most_rays_per_side * most_rays_per_side) + static_cast<std::uint32_t>(k);
+    const std::uint32_t number =
+        part.path * static_cast<std::uint32_t>(most_rays_per_side * most_rays_per_side) + static_cast<std::uint32_t>(k);
     const auto u = core::random_block(seed_, static_cast<std::uint32_t>(element), at.key, number);
     const auto y = onto((k / side + core::uniform_32(u[0])) / side, (k % side + core::uniform_32(u[1])) / side);
     const Vec3 d = y.position - at.x;
@@ -120,13 +123,16 @@ void Gather::cast(const Receiver& at, const Part& part, Index element, int side,
   rays_.occluded(rays.segments, rays.blocked);
 }
 
-GatheredElement Gather::sampled(const Receiver& at, const Unproved& element, double rays_per_factor, std::uint64_t& rays_cast) const {
+GatheredElement Gather::sampled(const Receiver& at, const Unproved& element, double rays_per_factor,
+                                std::uint64_t& rays_cast) const {
   GatheredElement sum{element.element, 0.0, 0.0};
   Rays rays;
   for (const Part& part : element.parts) {
-    const int side = std::clamp(static_cast<int>(std::lround(std::sqrt(rays_per_factor * part.factor))), 2, most_rays_per_side);
+    const int side =
+        std::clamp(static_cast<int>(std::lround(std::sqrt(rays_per_factor * part.factor))), 2, most_rays_per_side);
     cast(at, part, element.element, side, rays);
-    const SampledVisibility v = rays.weights.empty() ? SampledVisibility{0.5, 0.5, 0} : estimated_visibility(rays.weights, rays.blocked);
+    const SampledVisibility v =
+        rays.weights.empty() ? SampledVisibility{0.5, 0.5, 0} : estimated_visibility(rays.weights, rays.blocked);
     rays_cast += rays.weights.size();
     sum.factor += part.factor * v.visible;
     sum.standard_error = std::hypot(sum.standard_error, part.factor * v.standard_error);
@@ -134,10 +140,16 @@ GatheredElement Gather::sampled(const Receiver& at, const Unproved& element, dou
   return sum;
 }
 
-Gathered Gather::operator()(const measure::PointIrradiance& at, std::uint64_t key, std::span<const double> importance) const {
+Gathered Gather::operator()(const measure::PointIrradiance& at, std::uint64_t key,
+                            std::span<const double> importance) const {
   const Vec3 local = at.position - shapes_.origin(), u = at.normal.unitOrthogonal(), v = at.normal.cross(u);
   const double size = 8 * shapes_.plane_tolerance();
-  const Receiver receiver{at.position, at.normal, at.on ? at.normal : Vec3::Zero(), key, {at.normal, at.normal.dot(local)}, local,
+  const Receiver receiver{at.position,
+                          at.normal,
+                          at.on ? at.normal : Vec3::Zero(),
+                          key,
+                          {at.normal, at.normal.dot(local)},
+                          local,
                           {local + size * u, local + size * (-0.5 * u + 0.9 * v), local + size * (-0.5 * u - 0.9 * v)}};
   Gathered out;
   std::vector<Unproved> unproved = unproved_elements(receiver, out);
@@ -145,10 +157,12 @@ Gathered Gather::operator()(const measure::PointIrradiance& at, std::uint64_t ke
   for (const Unproved& e : unproved) total += e.factor * importance[static_cast<std::size_t>(e.element)];
   for (Unproved& e : unproved) {
     add_part(receiver, patches_[static_cast<std::size_t>(e.element)], 0, 0, e);
-    const double rays_per_factor = total > 0.0 ? rays_per_point_ * importance[static_cast<std::size_t>(e.element)] / total : 0.0;
+    const double rays_per_factor =
+        total > 0.0 ? rays_per_point_ * importance[static_cast<std::size_t>(e.element)] / total : 0.0;
     out.elements.push_back(sampled(receiver, e, rays_per_factor, out.rays));
   }
-  std::sort(out.elements.begin(), out.elements.end(), [](const auto& a, const auto& b) { return a.element < b.element; });
+  std::sort(out.elements.begin(), out.elements.end(),
+            [](const auto& a, const auto& b) { return a.element < b.element; });
   return out;
 }
 

@@ -27,15 +27,15 @@ struct Gathered {
 ///
 ///   H_1(x, n) = sum_j F_{dA(x,n)->j} V(x, j) B_j  [W/m² | lx]
 ///
-/// Lambert's formula on the part of element j above the horizon of (x, n) and on the side it is seen from; visibility 1 where a shaft
-/// proves it, else from stratified rays weighted by cos cos / r².  A near element is cut into quarters first, until its parts are
-/// smaller than their distance, so that one part's rays count about equally.  Rays are given in proportion to what an element may
-/// contribute.
+/// Lambert's formula on the part of element j above the horizon of (x, n) and on the side it is seen from; visibility 1 where
+/// a shaft proves it, else from stratified rays weighted by cos cos / r².  A near element is cut into quarters first, until
+/// its parts are smaller than their distance, so that one part's rays count about equally.  Rays are given in proportion to
+/// what an element may contribute.
 class Gather {
  public:
   /// All of it outlives the gather.  @param rays_per_point  to be shared by the elements that need them; each gets 4 at least
-  Gather(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, std::uint64_t seed,
-         int rays_per_point = 4096);
+  Gather(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
+         std::uint64_t seed, int rays_per_point = 4096);
 
   /// @param key         of the measurement: with the seed and the element, of its random numbers
   /// @param importance  per element, >= 0: its radiosity as one number, to give rays by
@@ -46,10 +46,12 @@ class Gather {
   struct Rays;
   struct Part;
   struct Unproved;
-  void add_part(const Receiver& at, const scene::SurfacePatch& part, std::uint32_t path, int depth, Unproved& element) const;
+  void add_part(const Receiver& at, const scene::SurfacePatch& part, std::uint32_t path, int depth,
+                Unproved& element) const;
   std::vector<Unproved> unproved_elements(const Receiver& at, Gathered& out) const;
   void cast(const Receiver& at, const Part& part, Index element, int side, Rays& rays) const;
-  GatheredElement sampled(const Receiver& at, const Unproved& element, double rays_per_factor, std::uint64_t& rays_cast) const;
+  GatheredElement sampled(const Receiver& at, const Unproved& element, double rays_per_factor,
+                          std::uint64_t& rays_cast) const;
 
   std::span<const scene::SurfacePatch> patches_;
   const raycast::RayCaster& rays_;

@@ -30,7 +30,8 @@ void add_three(Rule& rule, double a, double weight) {
 /// The six nodes with barycentric coordinates (a, b, 1 - a - b).
 void add_six(Rule& rule, double a, double b, double weight) {
   const double c = 1.0 - a - b;
-  rule.insert(rule.end(), {{a, b, weight}, {b, a, weight}, {a, c, weight}, {c, a, weight}, {b, c, weight}, {c, b, weight}});
+  rule.insert(rule.end(),
+              {{a, b, weight}, {b, a, weight}, {a, c, weight}, {c, a, weight}, {b, c, weight}, {c, b, weight}});
 }
 
 Rule triangle_rule_12() {

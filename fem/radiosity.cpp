@@ -23,7 +23,9 @@ class StageClock {
   auto operator()(const std::string& stage, const Work& work) {
     const auto start = std::chrono::steady_clock::now();
     struct Record {
-      ~Record() { stages.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()}); }
+      ~Record() {
+        stages.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()});
+      }
       std::vector<StageCost>& stages;
       const std::string& name;
       std::chrono::steady_clock::time_point begin;
@@ -42,8 +44,9 @@ std::vector<double> areas_of(const mesh::ElementMesh& mesh) {
 }
 
 /// b = e + R G^-1 K b from a fresh start.
-solvers::ColumnMatrix solve_system(const DenseSymmetric& K, const solvers::ColumnMatrix& exitance, const solvers::ColumnMatrix& reflectance,
-                                   const RadiositySettings& settings, Run& run, solvers::SolverReport& report) {
+solvers::ColumnMatrix solve_system(const DenseSymmetric& K, const solvers::ColumnMatrix& exitance,
+                                   const solvers::ColumnMatrix& reflectance, const RadiositySettings& settings,
+                                   Run& run, solvers::SolverReport& report) {
   const solvers::Reflection R(reflectance);
   solvers::SolverState state{exitance, 0};
   report = solvers::make_solver(settings.solver)->advance({K, R, exitance}, state, settings.stopping, run);
@@ -84,12 +87,14 @@ void set_materials(RadiositySolution& s, const scene::Scene& scene) {
 }
 
 /// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
-void solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySettings& settings, int channels, Run& run) {
+void solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySettings& settings, int channels,
+                Run& run) {
   const solvers::ColumnMatrix e = to_columns(s.exitance, channels), rho = to_columns(s.reflectance, channels);
   const solvers::ColumnMatrix B = solve_system(K, e, rho, settings, run, s.solver);
   solvers::SolverReport unreported;
   const auto coarse = aggregated(K, run);
-  s.coarse_radiosity = to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, unreported)));
+  s.coarse_radiosity =
+      to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, unreported)));
   solvers::ColumnMatrix H(B.rows(), B.cols());
   K.apply(B, H, run);
   divide_by(H, K.gram());
@@ -100,7 +105,8 @@ void solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySe
 /// Row sums made 1 where that was asked for; returns the relative change of K.
 double close(DenseSymmetric& K, bool closed, const RadiositySettings& settings, Run& run) {
   if (!settings.restore_closure) return 0.0;
-  if (!closed) throw core::InputError("closure can be restored in closed scenes only: rays leave this one or reach black backs");
+  if (!closed)
+    throw core::InputError("closure can be restored in closed scenes only: rays leave this one or reach black backs");
   return restore_closure(K, run).correction;
 }
 
@@ -119,7 +125,8 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   DenseSymmetric K(areas_of(s.mesh));
   timed("form factors", [&] {
     const auto method = make_form_factor_method(
-        settings.form_factors, {scene, s.mesh.patches(), *rays, run.seed, settings.quadrature_tolerance, settings.visibility_rays});
+        settings.form_factors,
+        {scene, s.mesh.patches(), *rays, run.seed, settings.quadrature_tolerance, settings.visibility_rays});
     s.pairs = assemble(*method, s.mesh.patches(), K, run);
   });
   const std::vector<double> row_sum_before = K.row_sums(run);
@@ -131,7 +138,9 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   });
   s.rows = summary_of(s.row_sum, K.gram());
   timed("solve", [&] { solve_both(s, K, settings, channels, run); });
-  timed("error estimate", [&] { estimate_errors(s, {K, row_sum_before, settings.quadrature_tolerance}, channels, run); });
+  timed("error estimate", [&] {
+    estimate_errors(s, {K, row_sum_before, settings.quadrature_tolerance}, channels, run);
+  });
   timed("energy balance", [&] {
     const LostRays lost = cast_lost_rays(scene, s.mesh.patches(), s.radiosity, *rays, run);
     s.closed = s.closed && lost.lost == 0;

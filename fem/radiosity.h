@@ -45,10 +45,12 @@ struct StageCost {
 /// Where the flux goes [W | lm], per channel:  emitted = absorbed + escaped + on_backs + form_factor_error + residual.
 struct EnergyBalance {
   Spectrum emitted, absorbed;
-  Spectrum escaped, on_backs;  ///< what leaves the elements and reaches none, by rays: through openings, and on black backs
-  Spectrum split_error;        ///< standard error of escaped + on_backs
-  Spectrum form_factor_error;  ///< sum_i (1 - row sum_i) A_i B_i - escaped - on_backs: what row sums and rays disagree about
-  Spectrum residual;           ///< emitted - absorbed - sum_i (1 - row sum_i) A_i B_i: solver error alone
+  Spectrum escaped,
+      on_backs;          ///< what leaves the elements and reaches none, by rays: through openings, and on black backs
+  Spectrum split_error;  ///< standard error of escaped + on_backs
+  Spectrum
+      form_factor_error;  ///< sum_i (1 - row sum_i) A_i B_i - escaped - on_backs: what row sums and rays disagree about
+  Spectrum residual;      ///< emitted - absorbed - sum_i (1 - row sum_i) A_i B_i: solver error alone
 };
 
 struct RowSums {
@@ -57,17 +59,21 @@ struct RowSums {
 
 /// A solved scene: constants on elements, all per element in the order of the mesh.
 struct RadiositySolution {
-  RadiositySolution(mesh::ElementMesh elements, double longest_edge) : mesh(std::move(elements)), element_size(longest_edge) {}
+  RadiositySolution(mesh::ElementMesh elements, double longest_edge)
+      : mesh(std::move(elements)), element_size(longest_edge) {}
 
   mesh::ElementMesh mesh;
   double element_size;
   std::vector<Spectrum> exitance, reflectance, radiosity, irradiance;
-  std::vector<Spectrum> irradiance_error;  ///< estimated bound on |bias| of the element's mean H (discretisation, quadrature, solver)
+  std::vector<Spectrum>
+      irradiance_error;  ///< estimated bound on |bias| of the element's mean H (discretisation, quadrature, solver)
   std::vector<Spectrum> irradiance_noise;  ///< standard error of H from sampled visibility
-  std::vector<Spectrum> field_error;       ///< |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h
-  std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size, on this mesh (its parent's value)
-  std::vector<double> row_sum;             ///< sum_j F_ij
-  bool closed = false;                       ///< no ray that left an element was lost
+  std::vector<Spectrum>
+      field_error;  ///< |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h
+  std::vector<Spectrum>
+      coarse_radiosity;         ///< the solution at twice the element size, on this mesh (its parent's value)
+  std::vector<double> row_sum;  ///< sum_j F_ij
+  bool closed = false;          ///< no ray that left an element was lost
   solvers::SolverReport solver;
   PairCounts pairs;
   RowSums rows;
@@ -77,8 +83,8 @@ struct RadiositySolution {
   double bytes = 0;  ///< memory of the operator
 };
 
-/// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their children's, so
-/// that visibility is sampled once), and estimates the error from the difference (error_estimate.h).
+/// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their
+/// children's, so that visibility is sampled once), and estimates the error from the difference (error_estimate.h).
 /// @throws core::InputError   no elements, too little memory, unknown names, closure asked of a scene that is not closed
 /// @throws core::Interrupted
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);

@@ -36,7 +36,8 @@ double shared_area(const scene::SurfacePatch& element, const scene::SurfacePatch
 /// Answers one list, measurement by measurement: everything here is read only.
 class Answers {
  public:
-  Answers(const scene::Scene& scene, const RadiositySolution& solution, const raycast::RayCaster& rays, std::uint64_t seed)
+  Answers(const scene::Scene& scene, const RadiositySolution& solution, const raycast::RayCaster& rays,
+          std::uint64_t seed)
       : scene_(scene), s_(solution), rays_(rays), seed_(seed), gather_(scene, solution.mesh.patches(), rays, seed) {
     for (std::size_t i = 0; i < s_.radiosity.size(); ++i) {
       importance_.push_back(std::max(0.0, scene.weigh(s_.radiosity[i])));
@@ -83,8 +84,8 @@ Estimate Answers::of_patch(const scene::SurfacePatch& patch) const {
   return element ? of_element(*element) : of_tiles(patch);
 }
 
-/// The mean over the elements that tile the patch.  Of an element that is cut, constants know no more than the mean: its variation
-/// is added to the bound, by the cut part's share.
+/// The mean over the elements that tile the patch.  Of an element that is cut, constants know no more than the mean: its
+/// variation is added to the bound, by the cut part's share.
 Estimate Answers::of_tiles(const scene::SurfacePatch& patch) const {
   Spectrum flux, noise_squared, error;
   double covered = 0.0;
@@ -94,7 +95,8 @@ Estimate Answers::of_tiles(const scene::SurfacePatch& patch) const {
     if (part.surface != patch.surface || part.side != patch.side) continue;
     for (std::size_t i = part.first; i < part.first + part.count; ++i) {
       const scene::SurfacePatch& element = s_.mesh.patches()[i];
-      if (std::abs(normal.dot(element.corner[0] - patch.corner[0])) > plane || element.normal().dot(normal) < 0.999) continue;
+      if (std::abs(normal.dot(element.corner[0] - patch.corner[0])) > plane || element.normal().dot(normal) < 0.999)
+        continue;
       const double area = shared_area(element, patch);
       if (area <= 0.0) continue;
       covered += area;
@@ -173,14 +175,16 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked, std::uint64_t 
     }
     const std::size_t i = element->element.value;
     radiance.add(s_.radiosity[i] * inv_pi);
-    error += inv_pi / (side * side) * (s_.reflectance[i] * (s_.irradiance_error[i] + s_.irradiance_noise[i]) + s_.field_error[i]);
+    error += inv_pi / (side * side) *
+             (s_.reflectance[i] * (s_.irradiance_error[i] + s_.irradiance_noise[i]) + s_.field_error[i]);
   }
   return {radiance.mean(), radiance.standard_error(), error, Claim::estimated, radiance.count()};
 }
 
 }  // namespace
 
-std::vector<Estimate> RadiosityMethod::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const {
+std::vector<Estimate> RadiosityMethod::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                                              Run& run) const {
   std::vector<Estimate> estimates(asked.size());
   const Answers answers(scene, solution_, rays_, run.seed);
   core::Progress::Stage stage(run.progress, "radiosity answers", asked.size());

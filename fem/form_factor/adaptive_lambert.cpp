@@ -94,7 +94,8 @@ class Refinement {
 
 }  // namespace
 
-Integral adaptive_lambert(std::span<const Vec3> outer, const Vec3& normal, std::span<const Vec3> inner, double tolerance) {
+Integral adaptive_lambert(std::span<const Vec3> outer, const Vec3& normal, std::span<const Vec3> inner,
+                          double tolerance) {
   Refinement refinement(normal, inner);
   if (outer.size() == 4) {
     refinement.add(Cell{{outer[0], outer[1], outer[2], outer[3]}, 4});

@@ -53,7 +53,8 @@ std::optional<std::array<Vec3, 4>> rectangle_of(const Elements& elements, const 
   }
   const auto at = [&](double u, double v) -> Vec3 { return origin + u * along + v * across; };
   const Vec2 low = box.min(), high = box.max();
-  return std::array<Vec3, 4>{at(low.x(), low.y()), at(high.x(), low.y()), at(high.x(), high.y()), at(low.x(), high.y())};
+  return std::array<Vec3, 4>{at(low.x(), low.y()), at(high.x(), low.y()), at(high.x(), high.y()),
+                             at(low.x(), high.y())};
 }
 
 void split(Elements elements, const ElementShapes& shapes, std::size_t largest, std::vector<ElementCluster>& out) {
@@ -78,12 +79,14 @@ void split(Elements elements, const ElementShapes& shapes, std::size_t largest, 
 
 }  // namespace
 
-std::vector<ElementCluster> clusters_of(std::span<const scene::SurfacePatch> patches, const ElementShapes& shapes, std::size_t largest) {
+std::vector<ElementCluster> clusters_of(std::span<const scene::SurfacePatch> patches, const ElementShapes& shapes,
+                                        std::size_t largest) {
   std::vector<ElementCluster> clusters;
   for (std::size_t first = 0; first < patches.size();) {
     std::size_t end = first;
     Elements part;
-    while (end < patches.size() && patches[end].surface == patches[first].surface && patches[end].side == patches[first].side)
+    while (end < patches.size() && patches[end].surface == patches[first].surface &&
+           patches[end].side == patches[first].side)
       part.push_back(static_cast<Index>(end++));
     for (const Elements& plane : by_plane(part, shapes)) split(plane, shapes, largest, clusters);
     first = end;

@@ -17,8 +17,8 @@ struct ElementShape {
   std::size_t corners = 0;
   geometry::Plane plane;  ///< normal out of the side that exchanges light
   Vec3 centroid;
-  double radius = 0;      ///< of the ball about the centroid that holds the element [m]
-  double area = 0;        ///< [m²]
+  double radius = 0;  ///< of the ball about the centroid that holds the element [m]
+  double area = 0;    ///< [m²]
 
   std::span<const Vec3> ring() const { return {corner.data(), corners}; }
 };
@@ -36,7 +36,10 @@ class NodeBuffer {
  public:
   /// @param rules  rules_of(level + 1) with at most 16 nodes
   NodeBuffer(const ElementShape& shape, const RulePair& rules);
-  NodeArrays arrays() const { return {data_.data(), data_.data() + padded_, data_.data() + 2 * padded_, data_.data() + 3 * padded_, count_, padded_}; }
+  NodeArrays arrays() const {
+    return {data_.data(), data_.data() + padded_, data_.data() + 2 * padded_, data_.data() + 3 * padded_, count_,
+            padded_};
+  }
 
  private:
   std::array<double, 64> data_;

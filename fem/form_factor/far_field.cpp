@@ -32,15 +32,20 @@ constexpr double envelope[ElementShapes::levels] = {2.2, 1.1, 0.46, 0.15};
 
 }  // namespace
 
-double far_field(const NodeArrays& a, const geometry::Plane& plane_a, const NodeArrays& b, const geometry::Plane& plane_b) {
+double far_field(const NodeArrays& a, const geometry::Plane& plane_a, const NodeArrays& b,
+                 const geometry::Plane& plane_b) {
   double height_a[16], height_b[16];
   weigh(a, plane_b, height_a);
   weigh(b, plane_a, height_b);
   switch (b.padded) {
-    case 4: return inv_pi * product_rule<4>(a, height_a, b, height_b);
-    case 8: return inv_pi * product_rule<8>(a, height_a, b, height_b);
-    case 12: return inv_pi * product_rule<12>(a, height_a, b, height_b);
-    default: return inv_pi * product_rule<16>(a, height_a, b, height_b);
+    case 4:
+      return inv_pi * product_rule<4>(a, height_a, b, height_b);
+    case 8:
+      return inv_pi * product_rule<8>(a, height_a, b, height_b);
+    case 12:
+      return inv_pi * product_rule<12>(a, height_a, b, height_b);
+    default:
+      return inv_pi * product_rule<16>(a, height_a, b, height_b);
   }
 }
 

@@ -9,7 +9,8 @@ namespace interflect::fem {
 /// All pairs of two clusters: what may lie between the clusters is found once, when first asked for.
 class GaussLambert::ClusterPair {
  public:
-  ClusterPair(const GaussLambert& method, const ElementCluster& a, const ElementCluster& b) : method_(method), a_(a), b_(b) {}
+  ClusterPair(const GaussLambert& method, const ElementCluster& a, const ElementCluster& b)
+      : method_(method), a_(a), b_(b) {}
 
   bool proved_clear(Index i, Index j) {
     if (!candidates_) find_candidates();
@@ -43,7 +44,8 @@ GaussLambert::GaussLambert(const FormFactorContext& context)
       blockers_(context.scene, integrate_.shapes().origin()),
       visibility_(context.patches, context.rays, context.visibility_rays, context.seed) {}
 
-PairCounts GaussLambert::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
+PairCounts GaussLambert::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                                  const Run& run) const {
   PairCounts counts;
   VisibilitySampler::Workspace workspace;
   const auto within = [](const ElementBlock& block, const ElementCluster& cluster) {

@@ -10,14 +10,16 @@ namespace interflect::fem {
 
 /// Form factors of pairs: K_ij = K_ij,unoccluded V_ij.
 ///
-/// Orientation proves pairs dark; a shaft between two clusters of elements, or between the two elements, that no facet reaches into
-/// proves them clear; the visibility of the rest is sampled.  Errors: hypot(quadrature, K_ij,unoccluded standard error of V).
+/// Orientation proves pairs dark; a shaft between two clusters of elements, or between the two elements, that no facet
+/// reaches into proves them clear; the visibility of the rest is sampled.  Errors: hypot(quadrature, K_ij,unoccluded standard
+/// error of V).
 class GaussLambert final : public FormFactorMethod {
  public:
   explicit GaussLambert(const FormFactorContext& context);
   std::string name() const override { return "gauss-lambert"; }
   Granularity granularity() const override { return Granularity::pair; }
-  PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const override;
+  PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                      const Run& run) const override;
 
  private:
   class ClusterPair;

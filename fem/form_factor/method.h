@@ -32,7 +32,7 @@ struct PairCounts {
   std::uint64_t clear = 0;        ///< proved fully visible by a shaft
   std::uint64_t sampled = 0;      ///< visibility by rays
   std::uint64_t rays = 0;
-  std::uint64_t clamped = 0;      ///< entries pulled back into 0 <= K <= min(A_a, A_b)
+  std::uint64_t clamped = 0;  ///< entries pulled back into 0 <= K <= min(A_a, A_b)
   PairCounts& operator+=(const PairCounts& o);
 };
 
@@ -45,7 +45,8 @@ class FormFactorMethod {
   virtual Granularity granularity() const = 0;
   virtual int highest_order() const { return 0; }  ///< of the basis: 0 for constants only
   /// Every pair (a in rows, b in columns) with a < b once; reentrant.  Same numbers whatever the blocks.
-  virtual PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const = 0;
+  virtual PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                              const Run& run) const = 0;
 };
 
 /// What a method is made for; all of it outlives the method.
@@ -54,8 +55,8 @@ struct FormFactorContext {
   std::span<const scene::SurfacePatch> patches;
   const raycast::RayCaster& rays;
   std::uint64_t seed = 1;
-  double tolerance = 1e-3;      ///< relative, of the quadrature of one entry
-  int visibility_rays = 16;     ///< per pair that is neither clear nor dark; at least 4
+  double tolerance = 1e-3;   ///< relative, of the quadrature of one entry
+  int visibility_rays = 16;  ///< per pair that is neither clear nor dark; at least 4
 };
 
 /// @throws core::InputError with the names known

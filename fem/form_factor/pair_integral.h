@@ -7,9 +7,9 @@ namespace interflect::fem {
 
 /// How two elements lie to each other's planes.
 enum class Facing {
-  away,     ///< one lies behind the other's plane, or in it: nothing is exchanged
-  crossing, ///< one reaches through the other's plane: both are clipped first
-  full      ///< each is wholly in front of the other
+  away,      ///< one lies behind the other's plane, or in it: nothing is exchanged
+  crossing,  ///< one reaches through the other's plane: both are clipped first
+  full       ///< each is wholly in front of the other
 };
 
 struct PairIntegral {
@@ -20,13 +20,14 @@ struct PairIntegral {
 
 /// Unoccluded form factors of pairs.
 ///
-/// Far pairs take a product rule on both elements, of the lowest order whose error bound is below the tolerance (far_field.h); near
-/// and touching ones Lambert's formula on one and adaptive Gauss quadrature on the other (adaptive_lambert.h).  The outer
-/// element is the smaller one: the integrand over it varies on the scale of the distance, which is the same for both choices, and
-/// so it is the smoother the smaller the outer element is.
+/// Far pairs take a product rule on both elements, of the lowest order whose error bound is below the tolerance
+/// (far_field.h); near and touching ones Lambert's formula on one and adaptive Gauss quadrature on the other
+/// (adaptive_lambert.h).  The outer element is the smaller one: the integrand over it varies on the scale of the distance,
+/// which is the same for both choices, and so it is the smoother the smaller the outer element is.
 class PairIntegrator {
  public:
-  PairIntegrator(std::span<const scene::SurfacePatch> patches, double tolerance) : shapes_(patches), tolerance_(tolerance) {}
+  PairIntegrator(std::span<const scene::SurfacePatch> patches, double tolerance)
+      : shapes_(patches), tolerance_(tolerance) {}
 
   PairIntegral operator()(Index i, Index j) const;
   const ElementShapes& shapes() const { return shapes_; }

@@ -46,7 +46,8 @@ double point_to_polygon(const Vec3& x, const Vec3& n, std::span<const Vec3> poly
   return point_to_polygon_above_horizon(Vec3::Zero(), n, geometry::clip(relative.ring(), {n, 0.0}).ring());
 }
 
-double point_to_polygon_far(const Vec3& x, const Vec3& n, const Vec3& centroid, const Vec3& polygon_normal, double area) {
+double point_to_polygon_far(const Vec3& x, const Vec3& n, const Vec3& centroid, const Vec3& polygon_normal,
+                            double area) {
   const Vec3 to = centroid - x;
   const double receives = n.dot(to), sends = -polygon_normal.dot(to);
   if (receives <= 0.0 || sends <= 0.0) return 0.0;

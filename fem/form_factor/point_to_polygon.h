@@ -31,6 +31,7 @@ double point_to_polygon_above_horizon(const Vec3& x, const Vec3& n, std::span<co
 ///
 /// Accuracy: relative error below 2 (diameter / distance)² / cos, so 1e-3 at 50 diameters unless it grazes; a tenth of
 /// `point_to_polygon`'s cost.  Negative cosines count as 0.
-double point_to_polygon_far(const Vec3& x, const Vec3& n, const Vec3& centroid, const Vec3& polygon_normal, double area);
+double point_to_polygon_far(const Vec3& x, const Vec3& n, const Vec3& centroid, const Vec3& polygon_normal,
+                            double area);
 
 }  // namespace interflect::fem

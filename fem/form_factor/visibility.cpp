@@ -16,11 +16,12 @@ using Words = std::array<std::uint32_t, PointLanes::count>;
 /// Random points in cells of the unit square, given by row and column; 16 bits are plenty to jitter inside a cell.
 struct JitteredCells {
   alignas(32) PointLanes::Numbers s, t;
-  JitteredCells(const std::uint32_t* row, const std::uint32_t* column, std::uint32_t side, std::uint32_t turn_rows, std::uint32_t turn_columns,
-                const Words& bits) {
+  JitteredCells(const std::uint32_t* row, const std::uint32_t* column, std::uint32_t side, std::uint32_t turn_rows,
+                std::uint32_t turn_columns, const Words& bits) {
     const double cell = 1.0 / side;
     for (std::size_t l = 0; l < PointLanes::count; ++l) {
-      const std::uint32_t r = row[l] + turn_rows, c = column[l] + turn_columns;  // less `side` where that does not wrap around
+      const std::uint32_t r = row[l] + turn_rows,
+                          c = column[l] + turn_columns;  // less `side` where that does not wrap around
       s[l] = cell * (static_cast<int>(std::min(r, r - side)) + (0.5 + static_cast<int>(bits[l] >> 16)) * 0x1p-16);
       t[l] = cell * (static_cast<int>(std::min(c, c - side)) + (0.5 + static_cast<int>(bits[l] & 0xffffu)) * 0x1p-16);
     }
@@ -28,8 +29,10 @@ struct JitteredCells {
 };
 
 /// cos cos / r² times the weights of the points; not positive where the points face away.
-PointLanes::Numbers weights_between(const PointLanes& x, const PointLanes& y, const Vec3& normal_x, const Vec3& normal_y) {
-  const double ax = normal_x.x(), ay = normal_x.y(), az = normal_x.z(), bx = normal_y.x(), by = normal_y.y(), bz = normal_y.z();
+PointLanes::Numbers weights_between(const PointLanes& x, const PointLanes& y, const Vec3& normal_x,
+                                    const Vec3& normal_y) {
+  const double ax = normal_x.x(), ay = normal_x.y(), az = normal_x.z(), bx = normal_y.x(), by = normal_y.y(),
+               bz = normal_y.z();
   PointLanes::Numbers weight;
   for (std::size_t l = 0; l < PointLanes::count; ++l) {
     const double dx = y.x[l] - x.x[l], dy = y.y[l] - x.y[l], dz = y.z[l] - x.z[l];
@@ -49,7 +52,8 @@ CellPermutations::CellPermutations(int side, std::uint64_t seed) : side_(static_
   for (std::uint32_t p = 0; p <= count; ++p) {
     std::iota(order.begin(), order.end(), 0u);
     core::RandomNumbers random(seed, p, n);
-    for (std::uint32_t left = n; p > 0 && left > 1; --left) std::swap(order[left - 1], order[static_cast<std::size_t>(random.next() * left)]);
+    for (std::uint32_t left = n; p > 0 && left > 1; --left)
+      std::swap(order[left - 1], order[static_cast<std::size_t>(random.next() * left)]);
     for (const std::uint32_t cell : order) rows_.push_back(cell / side_), columns_.push_back(cell % side_);
   }
   rows_.resize(rows_.size() + PointLanes::count);
@@ -57,13 +61,17 @@ CellPermutations::CellPermutations(int side, std::uint64_t seed) : side_(static_
 }
 
 CellPermutations::Pairing CellPermutations::pairing(const core::RandomBlock& random) const {
-  const auto below = [](std::uint32_t bits, std::uint32_t n) { return static_cast<std::uint32_t>((std::uint64_t{bits} * n) >> 32); };
+  const auto below = [](std::uint32_t bits, std::uint32_t n) {
+    return static_cast<std::uint32_t>((std::uint64_t{bits} * n) >> 32);
+  };
   const std::size_t first = std::size_t{1 + random[0] % count} * side_ * side_;
-  return {rows_.data(), columns_.data(), rows_.data() + first, columns_.data() + first, below(random[1], side_), below(random[2], side_)};
+  return {
+      rows_.data(),           columns_.data(), rows_.data() + first, columns_.data() + first, below(random[1], side_),
+      below(random[2], side_)};
 }
 
-VisibilitySampler::VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int rays_per_pair,
-                                     std::uint64_t seed)
+VisibilitySampler::VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
+                                     int rays_per_pair, std::uint64_t seed)
     : maps_(patches.begin(), patches.end()), rays_(rays), seed_(core::derived_seed(seed, "visibility")) {
   const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(std::max(rays_per_pair, 4)))));
   for (const int times : {1, 2, 4}) permutations_.emplace_back(times * side, core::derived_seed(seed, "strata"));
@@ -87,7 +95,8 @@ void VisibilitySampler::generate(Index i, Index j, Effort effort, Workspace& w) 
       bits_i[l] = block[0], bits_j[l] = block[1], bits_i[l + 1] = block[2], bits_j[l + 1] = block[3];
     }
     const JitteredCells in_i(cells.row + first, cells.column + first, m, 0, 0, bits_i);
-    const JitteredCells in_j(cells.partner_row + first, cells.partner_column + first, m, cells.turn_rows, cells.turn_columns, bits_j);
+    const JitteredCells in_j(cells.partner_row + first, cells.partner_column + first, m, cells.turn_rows,
+                             cells.turn_columns, bits_j);
     const PointLanes x = onto_i(in_i.s, in_i.t), y = onto_j(in_j.s, in_j.t);
     const PointLanes::Numbers weight = weights_between(x, y, normal_i, normal_j);
     for (std::uint32_t l = 0; l < std::min<std::uint32_t>(PointLanes::count, n - first); ++l) {

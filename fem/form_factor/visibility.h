@@ -22,14 +22,16 @@ struct SampledVisibility {
 ///
 ///   V = sum k v / sum k,   V' = (sum k v + k_mean) / (sum k + 2 k_mean),   s² = V' (1 - V') sum k² / (sum k)²
 ///
-/// s is the binomial one with the effective number of rays and two rays added, one clear and one blocked, so that n rays that agree
-/// are worth about 1/(n + 2) and not certainty [Agresti, Coull 1998].  Stratification makes the truth somewhat better than s.
+/// s is the binomial one with the effective number of rays and two rays added, one clear and one blocked, so that n rays that
+/// agree are worth about 1/(n + 2) and not certainty [Agresti, Coull 1998].  Stratification makes the truth somewhat better
+/// than s.
 SampledVisibility estimated_visibility(std::span<const double> weights, std::span<const std::uint8_t> blocked);
 
 /// Random pairings of m x m cells with m x m cells.
 ///
-/// A few permutations are drawn once; a pair of elements takes one of them and turns it by a random shift of rows and columns, so that
-/// every cell of one is joined with every cell of the other with equal probability: no bias, whatever the permutations.
+/// A few permutations are drawn once; a pair of elements takes one of them and turns it by a random shift of rows and
+/// columns, so that every cell of one is joined with every cell of the other with equal probability: no bias, whatever the
+/// permutations.
 class CellPermutations {
  public:
   CellPermutations(int side, std::uint64_t seed);
@@ -54,8 +56,8 @@ enum class Effort : std::uint8_t { single, fourfold, sixteenfold };
 
 /// For a pair with this form factor (the larger of F_ij and F_ji): fourfold above 0.004, sixteenfold above 0.03.
 ///
-/// The noise of a row is sqrt(sum_j (F_ij s_ij B_j)²): a few large entries dominate it, and rays are best given in proportion to F
-/// [Neyman 1934]; four times as many halve such an entry's share.
+/// The noise of a row is sqrt(sum_j (F_ij s_ij B_j)²): a few large entries dominate it, and rays are best given in proportion
+/// to F [Neyman 1934]; four times as many halve such an entry's share.
 Effort effort_for(double form_factor);
 
 /// V_ij by rays between stratified points: with k = cos cos / r² at the k-th pair of points and v = 1 where it is clear,
@@ -75,7 +77,8 @@ class VisibilitySampler {
 
   /// @param rays_per_pair  for Effort::single: m² is the next square, at least 4
   /// @param seed           of the run: it is made one of visibility's own here
-  VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int rays_per_pair, std::uint64_t seed);
+  VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int rays_per_pair,
+                    std::uint64_t seed);
 
   /// @param i < j  elements
   SampledVisibility operator()(Index i, Index j, Effort effort, Workspace& workspace) const;

@@ -1,5 +1,6 @@
 // PLY, STL and glTF through assimp, which keeps coordinates as floats.
-#include <assimp/postprocess.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
@@ -11,6 +12,21 @@
 
 namespace interflect::scene::io {
 namespace {
+
+/// The files of the disk, but the guarded bytes in place of the mesh file's own.
+class GuardedFiles : public Assimp::DefaultIOSystem {
+ public:
+  GuardedFiles(const std::filesystem::path& file, const std::string& bytes) : file_(file.string()), bytes_(bytes) {}
+
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    if (name != file_) return Assimp::DefaultIOSystem::Open(name, mode);
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
+  }
+
+ private:
+  std::string file_;
+  const std::string& bytes_;
+};
 
 class SceneWalk {
  public:
@@ -87,15 +103,16 @@ class SceneWalk {
 }  // namespace
 
 MeshFile read_by_assimp(const std::filesystem::path& file, const std::string& shown) {
-  const auto promised = require_honest(file, shown);
+  const GuardedFile guarded = read_guarded(file, shown);
   Assimp::Importer importer;  // no post-processing: vertices stay unjoined, polygons whole
+  importer.SetIOHandler(new GuardedFiles(file, guarded.bytes));  // the importer owns it
   const aiScene* scene = importer.ReadFile(file.string(), 0);
   if (!scene) throw core::InputError(shown, core::single_line(importer.GetErrorString()));
   MeshFile mesh = SceneWalk(*scene, shown).run();
   std::size_t read = 0;
   for (unsigned k = 0; k < scene->mNumMeshes; ++k) read += scene->mMeshes[k]->mNumFaces;
-  if (promised && read < *promised)
-    mesh.notes.push_back(core::format("%zu faulty face(s) left out by the reader", *promised - read));
+  if (guarded.faces && read < *guarded.faces)
+    mesh.notes.push_back(core::format("%zu faulty face(s) left out by the reader", *guarded.faces - read));
   return mesh;
 }
 

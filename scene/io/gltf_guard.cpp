@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -26,6 +27,34 @@ std::vector<const Json*> list_of(const Json& object, const char* key) {
   return out;
 }
 
+/// Those of an object's members that have these keys.
+Json only(const Json& object, std::initializer_list<const char*> keys) {
+  Json out = Json::object();
+  if (!object.is_object()) return out;
+  for (const char* key : keys)
+    if (const auto at = object.find(key); at != object.end()) out[key] = *at;
+  return out;
+}
+
+/// The text without all that is no shape: skins, animations, textures, lights, which assimp trips over and nobody here needs.
+Json shapes_of(const Json& root) {
+  Json out = only(root, {"asset", "scene", "scenes", "accessors", "bufferViews", "buffers"});
+  for (const Json* node : list_of(root, "nodes"))
+    out["nodes"].push_back(only(*node, {"name", "children", "mesh", "matrix", "translation", "rotation", "scale"}));
+  for (const Json* material : list_of(root, "materials")) out["materials"].push_back(only(*material, {"name"}));
+  for (const Json* mesh : list_of(root, "meshes")) {
+    Json kept = only(*mesh, {"name"});
+    for (const Json* primitive : list_of(*mesh, "primitives")) {
+      Json part = only(*primitive, {"indices", "mode", "material"});
+      part["attributes"] =
+          primitive->contains("attributes") ? only((*primitive)["attributes"], {"POSITION"}) : Json::object();
+      kept["primitives"].push_back(std::move(part));
+    }
+    out["meshes"].push_back(std::move(kept));
+  }
+  return out;
+}
+
 /// A glTF text whose sizes are held against each other: buffers against files, views against buffers, accessors against views.
 class GltfGuard {
  public:
@@ -36,6 +65,8 @@ class GltfGuard {
     for (const Json* buffer : list_of(root_, "buffers")) add_buffer(*buffer);
     for (const Json* view : list_of(root_, "bufferViews")) add_view(*view);
     for (const Json* accessor : list_of(root_, "accessors")) check_accessor(*accessor);
+    for (const Json* mesh : list_of(root_, "meshes"))
+      for (const Json* primitive : list_of(*mesh, "primitives")) check_primitive(*primitive);
     require_node_tree();
     return promised_triangles();
   }
@@ -87,7 +118,8 @@ class GltfGuard {
     const bool held = accessor.is_object() && accessor.contains("bufferView");
     if (!held && count > most_zeros) fail("'count' in 'accessors' exceeds the buffers");
     const double component = size_of_component(accessor, "accessors");
-    if (held) check_reach(accessor, count, component * components(accessor));
+    const double size = component * components(accessor);
+    if (held) check_reach(accessor, count, size);
     if (!accessor.is_object() || !accessor.contains("sparse") || !accessor["sparse"].is_object()) return;
     const Json& sparse = accessor["sparse"];
     const double changed = whole(sparse, "count", 0, "sparse");
@@ -95,7 +127,31 @@ class GltfGuard {
     if (!sparse.contains("indices") || !sparse.contains("values"))
       fail("a sparse accessor lacks its indices or values");
     check_reach(sparse["indices"], changed, size_of_component(sparse["indices"], "sparse"));
-    check_reach(sparse["values"], changed, component * components(accessor));
+    check_reach(sparse["values"], changed, size);
+  }
+
+  /// Positions are floats in threes, indices whole numbers, and all of it is plain to read.
+  void check_primitive(const Json& primitive) const {
+    if (!primitive.is_object()) fail("a primitive is no object");
+    if (primitive.contains("extensions") && primitive["extensions"].is_object() &&
+        primitive["extensions"].contains("KHR_draco_mesh_compression"))
+      fail("its meshes are compressed by Draco: save them without");
+    if (primitive.contains("attributes") && primitive["attributes"].is_object() &&
+        primitive["attributes"].contains("POSITION"))
+      require_type(primitive["attributes"]["POSITION"], "VEC3", {5126}, "positions are not floats in threes");
+    if (primitive.contains("indices"))
+      require_type(primitive["indices"], "SCALAR", {5121, 5123, 5125}, "indices are not whole numbers");
+  }
+
+  void require_type(const Json& index, const char* type, const std::vector<int>& components,
+                    const char* complaint) const {
+    const auto accessors = list_of(root_, "accessors");
+    if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= accessors.size())
+      fail("a primitive names an accessor that does not exist");
+    const Json& accessor = *accessors[index.get<std::size_t>()];
+    const int component = accessor["componentType"].get<int>();  // known: every accessor has been checked
+    if (accessor["type"] != type || std::find(components.begin(), components.end(), component) == components.end())
+      fail(complaint);
   }
 
   void check_reach(const Json& place, double count, double size) const {
@@ -199,21 +255,37 @@ Json parse(std::string_view text, const std::string& shown) {
   }
 }
 
+/// The two parts in one file again.
+std::string as_glb(std::string text, std::string_view binary) {
+  const auto number = [](std::size_t n) {
+    std::string out(4, '\0');
+    for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<char>(n >> (8 * k) & 0xFF);
+    return out;
+  };
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::size_t padding = (4 - binary.size() % 4) % 4;
+  std::string body = number(text.size()) + "JSON" + text;
+  if (!binary.empty())
+    body +=
+        number(binary.size() + padding) + std::string("BIN\0", 4) + std::string(binary) + std::string(padding, '\0');
+  return "glTF" + number(2) + number(12 + body.size()) + body;
+}
+
 }  // namespace
 
-std::optional<std::size_t> require_honest_gltf(std::string_view bytes, const std::filesystem::path& file,
-                                               const std::string& shown) {
-  std::string_view text = bytes;
-  std::size_t binary = 0;
-  if (bytes.starts_with("glTF")) {  // 12 bytes, then chunks of 8 bytes and their content: the text, the binary part
+GuardedFile guarded_gltf(const std::string& bytes, const std::filesystem::path& file, const std::string& shown) {
+  std::string_view text = bytes, binary;
+  const bool is_glb = bytes.starts_with("glTF");
+  if (is_glb) {  // 12 bytes, then chunks of 8 bytes and their content: the text, the binary part
     constexpr std::size_t head = 20, chunk = 8;
     if (bytes.size() < head || little_endian(bytes, 8) > bytes.size() || little_endian(bytes, 12) > bytes.size() - head)
       throw core::InputError(shown, "the file is shorter than its header says");
-    text = bytes.substr(head, little_endian(bytes, 12));
-    const std::string_view rest = bytes.substr(head + text.size());
-    if (rest.size() >= chunk) binary = little_endian(rest, 0);
-    if (rest.size() >= chunk && binary > rest.size() - chunk)
+    text = text.substr(head, little_endian(bytes, 12));
+    binary = std::string_view(bytes).substr(head + text.size());
+    if (binary.size() < chunk) binary = {};
+    if (!binary.empty() && little_endian(binary, 0) > binary.size() - chunk)
       throw core::InputError(shown, "the file is shorter than its header says");
+    if (!binary.empty()) binary = binary.substr(chunk, little_endian(binary, 0));
     while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
       throw core::InputError(shown, "the file has no JSON part");
@@ -221,7 +293,9 @@ std::optional<std::size_t> require_honest_gltf(std::string_view bytes, const std
   require_text(text, shown);
   const Json root = parse(text, shown);
   if (!root.is_object()) throw core::InputError(shown, "a JSON object is expected");
-  return GltfGuard(root, binary, file.parent_path(), shown).run();
+  const auto faces = GltfGuard(root, binary.size(), file.parent_path(), shown).run();
+  const std::string kept = shapes_of(root).dump(-1, ' ', true, Json::error_handler_t::replace);
+  return {is_glb ? as_glb(kept, binary) : kept, faces};
 }
 
 }  // namespace interflect::scene::io

@@ -168,8 +168,9 @@ class PlyGuard {
 
 }  // namespace
 
-std::optional<std::size_t> require_honest_ply(std::string_view bytes, const std::string& shown) {
-  return PlyGuard(bytes, shown).run();
+GuardedFile guarded_ply(std::string bytes, const std::string& shown) {
+  const std::size_t faces = PlyGuard(bytes, shown).run();
+  return {std::move(bytes), faces};
 }
 
 }  // namespace interflect::scene::io

@@ -42,7 +42,8 @@ Spectrum mean_within(const RadiositySolution& fine, const scene::SurfacePatch& e
   for (std::size_t i = 0; i < fine.irradiance.size(); ++i) {
     const auto& patch = fine.mesh.patches()[i];
     if (patch.surface != element.surface) continue;
-    const Vec3 d = patch.centroid() - element.corner[0], u = element.corner[1] - element.corner[0], v = element.corner[3] - element.corner[0];
+    const Vec3 d = patch.centroid() - element.corner[0], u = element.corner[1] - element.corner[0],
+               v = element.corner[3] - element.corner[0];
     const double s = d.dot(u) / u.squaredNorm(), t = d.dot(v) / v.squaredNorm();
     if (s < 0 || s > 1 || t < 0 || t > 1) continue;
     sum += patch.area * fine.irradiance[i];
@@ -71,7 +72,8 @@ Coverage coverage(const RadiositySolution& coarse, const RadiositySolution& fine
 // Against elements of a quarter of the size, whose own error is a sixteenth of it or so.
 TEST(ErrorEstimate, covers_the_error_of_the_cube) {
   for (double rho : {.5, .8}) {
-    const Coverage c = coverage(solve(cube(rho), {.element_size = .25, .tolerance = 1e-5}), solve(cube(rho), {.element_size = 1.0 / 16}));
+    const Coverage c = coverage(solve(cube(rho), {.element_size = .25, .tolerance = 1e-5}),
+                                solve(cube(rho), {.element_size = 1.0 / 16}));
     EXPECT_EQ(c.covered, c.elements);
     RecordProperty("bound_to_error", std::to_string(c.bound / c.error));
     EXPECT_LT(c.bound, 20 * c.error) << "a bound that is never wrong is useless as well";
@@ -95,7 +97,8 @@ TEST(ErrorEstimate, covers_the_error_where_there_are_shadows) {
 TEST(ErrorEstimate, noise_of_irradiance_is_what_seeds_scatter_by) {
   constexpr int seeds = 6;
   std::vector<RadiositySolution> solutions;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) solutions.push_back(solve(shadowed(), {.element_size = .25, .seed = seed, .intersector = "embree"}));
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+    solutions.push_back(solve(shadowed(), {.element_size = .25, .seed = seed, .intersector = "embree"}));
   double squares = 0, predicted = 0;
   for (std::size_t i = 0; i < solutions[0].irradiance.size(); ++i) {
     double mean = 0;
@@ -110,15 +113,19 @@ TEST(ErrorEstimate, noise_of_irradiance_is_what_seeds_scatter_by) {
   EXPECT_LT(ratio, 1.1);
 }
 
-// Linear irradiance over a parent: the variation inside a child follows exactly.  Square of side 1, gradient 1 along x: 1/sqrt(12).
+// Linear irradiance over a parent: the variation inside a child follows exactly.  Square of side 1, gradient 1 along x:
+// 1/sqrt(12).
 TEST(ErrorEstimate, variation_inside_an_element_is_exact_for_linear_fields) {
   const std::vector<Vec3> square = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
-  const mesh::ElementMesh children = mesh::quartered(mesh::ElementMesh({scene::make_patch({0}, scene::Side::front, square)}));
+  const mesh::ElementMesh children =
+      mesh::quartered(mesh::ElementMesh({scene::make_patch({0}, scene::Side::front, square)}));
   RadiositySolution s(children, 1.0);
   for (const auto& patch : children.patches()) s.irradiance.emplace_back(patch.centroid().x());
   EXPECT_NEAR(irradiance_variation(s, 2)[0], 1 / std::sqrt(12.0), 1e-14);
-  const std::vector<Vec3> triangle = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};  // of a child with legs 1: variance of x is 1/18
-  const mesh::ElementMesh thirds = mesh::quartered(mesh::ElementMesh({scene::make_patch({0}, scene::Side::front, triangle)}));
+  const std::vector<Vec3> triangle = {
+      {0, 0, 0}, {2, 0, 0}, {0, 2, 0}};  // of a child with legs 1: variance of x is 1/18
+  const mesh::ElementMesh thirds =
+      mesh::quartered(mesh::ElementMesh({scene::make_patch({0}, scene::Side::front, triangle)}));
   RadiositySolution t(thirds, 1.0);
   for (const auto& patch : thirds.patches()) t.irradiance.emplace_back(patch.centroid().x());
   EXPECT_NEAR(irradiance_variation(t, 0)[0], 1 / std::sqrt(18.0), 1e-14);

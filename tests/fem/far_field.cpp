@@ -16,7 +16,8 @@ class RandomPairs {
     const double height = 2 * next() - 1, angle = 2 * pi * next(), radius = std::sqrt(1 - height * height);
     const Vec3 n(radius * std::cos(angle), radius * std::sin(angle), height), u = n.unitOrthogonal(), v = n.cross(u);
     const Vec3 a = .5 * size * u, b = .5 * size * (.25 + .75 * next()) * v;
-    if (next() < .5) return scene::make_patch({0}, scene::Side::front, std::array<Vec3, 4>{-a - b, a - b, a + b, -a + b});
+    if (next() < .5)
+      return scene::make_patch({0}, scene::Side::front, std::array<Vec3, 4>{-a - b, a - b, a + b, -a + b});
     return scene::make_patch({0}, scene::Side::front, std::array<Vec3, 3>{-a - b, a - b, (2 * next() - 1) * a + b});
   }
   Vec3 direction() { return patch(1).normal(); }

@@ -34,7 +34,9 @@ TEST(FormFactors, agree_with_published_closed_forms) {
   const auto low = patch(0, {{.1, .3, 0}, {.6, .3, 0}, {.6, .9, 0}, {.1, .9, 0}});
   const auto high = patch(1, {{.5, .2, .7}, {.5, .8, .7}, {1.3, .8, .7}, {1.3, .2, .7}});
   for (double tolerance : {1e-3, 1e-6, 1e-9}) {
-    const auto expect = [&](double computed, double exact) { EXPECT_NEAR(computed / exact, 1.0, tolerance + 1e-11) << tolerance; };
+    const auto expect = [&](double computed, double exact) {
+      EXPECT_NEAR(computed / exact, 1.0, tolerance + 1e-11) << tolerance;
+    };
     expect(form_factor(unit_square(), above, tolerance), 0.19982489569838738);
     expect(form_factor(unit_square(), beside, tolerance), 0.20004377607540315);
     expect(form_factor(triangle, patch(1, {{0, 0, 1}, {0, 2, 1}, {2, 0, 1}}), tolerance), 0.284312520989);
@@ -54,8 +56,9 @@ TEST(FormFactors, are_of_the_parts_in_front_of_each_other) {
   EXPECT_EQ(form_factor(unit_square(), coplanar, 1e-3), 0.0);
 }
 
-// A_1 F_12 = A_2 F_21 holds by construction; that F is divided by the right area shows where areas differ: a small disc-like patch
-// of side .01 under a large one sees all of it, F = Lambert's at its centre to (side/distance)², the other way 10^-4 of that.
+// A_1 F_12 = A_2 F_21 holds by construction; that F is divided by the right area shows where areas differ: a small disc-like
+// patch of side .01 under a large one sees all of it, F = Lambert's at its centre to (side/distance)², the other way 10^-4 of
+// that.
 TEST(FormFactors, of_very_unequal_areas_are_divided_by_the_area_that_sends) {
   const auto small = patch(0, {{.495, .495, 0}, {.505, .495, 0}, {.505, .505, 0}, {.495, .505, 0}});
   const auto large = patch(1, {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}});

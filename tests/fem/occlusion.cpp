@@ -35,7 +35,8 @@ Sum exchange_between_halves(const test::Assembled& F) {
 // error is cautious, so that the true level is lower.)
 TEST(Occlusion, form_factors_past_a_screen_agree_with_the_exact_ones) {
   for (int n : {1, 4})
-    for (const auto& [corner, exact] : {std::pair(Vec3(0, 0, .5), 0.149868671774), std::pair(Vec3(.25, .25, .5), 0.099506294599)}) {
+    for (const auto& [corner, exact] :
+         {std::pair(Vec3(0, 0, .5), 0.149868671774), std::pair(Vec3(.25, .25, .5), 0.099506294599)}) {
       Room room = plates_with_screen(n, corner);
       const auto scene = room.finish();
       const auto F = form_factors(scene, room.patches, 1e-6, n == 1 ? 1024 : 64);
@@ -54,16 +55,18 @@ TEST(Occlusion, concentric_cubes_see_each_other_as_any_convex_bodies_do) {
   const auto scene = room.finish();
   const auto F = form_factors(scene, room.patches, 1e-5, 64);
   const Index outer = 96, inner = 24;
-  const double out_in = F.K.topRightCorner(outer, inner).sum() / 54, out_out = F.K.topLeftCorner(outer, outer).sum() / 54;
+  const double out_in = F.K.topRightCorner(outer, inner).sum() / 54,
+               out_out = F.K.topLeftCorner(outer, outer).sum() / 54;
   const double error = std::sqrt(2 * F.error.topLeftCorner(outer, outer).squaredNorm()) / 54;  // each pair counts twice
   EXPECT_NEAR(out_in, 1.0 / 9, 1e-5);
   EXPECT_NEAR(out_out, 8.0 / 9, 4 * error);
   EXPECT_LT(error, 3e-3);
-  for (Index i = outer; i < outer + inner; ++i) EXPECT_NEAR(F.K.row(i).sum() / .25, 1.0, 1e-5) << "the inner cube sees no noise";
+  for (Index i = outer; i < outer + inner; ++i)
+    EXPECT_NEAR(F.K.row(i).sum() / .25, 1.0, 1e-5) << "the inner cube sees no noise";
 }
 
-// A screen in the middle of the room between two of its walls: each pair's deviation from a reference of 64 times as many rays, in
-// standard errors.  Cautious: stratification gains, and agreeing rays are not taken for certainty.
+// A screen in the middle of the room between two of its walls: each pair's deviation from a reference of 64 times as many
+// rays, in standard errors.  Cautious: stratification gains, and agreeing rays are not taken for certainty.
 TEST(Occlusion, standard_errors_of_visibility_are_honest) {
   Room room = plates_with_screen(6, {.25, .25, .5});
   const auto scene = room.finish();
@@ -113,7 +116,8 @@ TEST(Occlusion, entries_do_not_depend_on_the_blocks_they_are_asked_in) {
     test::MatrixSink sink(room.patches.size());
     for (Index row = 0; row < n; row += block)
       for (Index column = row; column < n; column += block)
-        method->exchange({room.patches, row, std::min(block, n - row)}, {room.patches, column, std::min(block, n - column)}, sink, run.get());
+        method->exchange({room.patches, row, std::min(block, n - row)},
+                         {room.patches, column, std::min(block, n - column)}, sink, run.get());
     EXPECT_EQ((sink.K - whole.K).cwiseAbs().maxCoeff(), 0.0);
     EXPECT_EQ((sink.error - whole.error).cwiseAbs().maxCoeff(), 0.0);
   }

@@ -32,17 +32,20 @@ TEST(PointToPolygon, agrees_with_the_closed_form_of_a_rectangle_above_its_corner
 // truths.md 2.9: a square of half side .5 two metres above, from points beside its axis.
 TEST(PointToPolygon, agrees_with_the_table_of_direct_light) {
   const Ring ring = {{-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2}};
-  const std::vector<std::pair<Vec3, double>> table = {
-      {{0, 0, 0}, .073477634813}, {{.5, 0, 0}, .066182613783}, {{1, 0, 0}, .049521835726}, {{2, 0, 0}, .020278199912},
-      {{1, 1, 0}, .035321277345}, {{1.4, 1.4, 0}, .020704801802}};
+  const std::vector<std::pair<Vec3, double>> table = {{{0, 0, 0}, .073477634813}, {{.5, 0, 0}, .066182613783},
+                                                      {{1, 0, 0}, .049521835726}, {{2, 0, 0}, .020278199912},
+                                                      {{1, 1, 0}, .035321277345}, {{1.4, 1.4, 0}, .020704801802}};
   for (const auto& [x, F] : table) EXPECT_NEAR(point_to_polygon(x, Vec3::UnitZ(), ring), F, 1e-12);
 }
 
 TEST(PointToPolygon, is_additive_over_a_partition_across_the_horizon) {
   core::RandomNumbers random(3, 0, 0);
   for (int trial = 0; trial < 200; ++trial) {
-    const auto point = [&](double size) -> Vec3 { return size * Vec3(random.next() - .5, random.next() - .5, random.next() - .5); };
-    const Vec3 a = point(4), b = point(4), c = point(4), x = point(1), n = point(1).normalized(), middle = (a + b + c) / 3;
+    const auto point = [&](double size) -> Vec3 {
+      return size * Vec3(random.next() - .5, random.next() - .5, random.next() - .5);
+    };
+    const Vec3 a = point(4), b = point(4), c = point(4), x = point(1), n = point(1).normalized(),
+               middle = (a + b + c) / 3;
     const double whole = point_to_polygon(x, n, Ring{a, b, c});
     const double parts = point_to_polygon(x, n, Ring{a, b, middle}) + point_to_polygon(x, n, Ring{b, c, middle}) +
                          point_to_polygon(x, n, Ring{c, a, middle});
@@ -58,7 +61,8 @@ TEST(PointToPolygon, of_a_closed_box_around_the_point_is_one) {
     for (double side : {-1.0, 1.0}) {
       Ring ring(4);
       const double u[] = {-1, 1, 1, -1}, v[] = {-1, -1, 1, 1};
-      for (std::size_t k = 0; k < 4; ++k) ring[k][axis] = side, ring[k][(axis + 1) % 3] = u[k], ring[k][(axis + 2) % 3] = v[k];
+      for (std::size_t k = 0; k < 4; ++k)
+        ring[k][axis] = side, ring[k][(axis + 1) % 3] = u[k], ring[k][(axis + 2) % 3] = v[k];
       sum += point_to_polygon(x, n, ring);
     }
   EXPECT_NEAR(sum, 1.0, 1e-14);

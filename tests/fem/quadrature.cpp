@@ -20,7 +20,8 @@ TEST(Quadrature, triangle_rules_are_exact_for_all_monomials_of_their_degree) {
       for (int q = 0; p + q <= degree; ++q) {
         double sum = 0;
         for (const RuleNode& node : rule) sum += node.weight * std::pow(node.u, p) * std::pow(node.v, q);
-        EXPECT_NEAR(sum, 2 * factorial(p) * factorial(q) / factorial(p + q + 2), 1e-14) << degree << ": u^" << p << " v^" << q;
+        EXPECT_NEAR(sum, 2 * factorial(p) * factorial(q) / factorial(p + q + 2), 1e-14)
+            << degree << ": u^" << p << " v^" << q;
       }
   }
   EXPECT_THROW(triangle_rule(9), core::PreconditionError);
@@ -41,7 +42,8 @@ TEST(Quadrature, gauss_rules_are_exact_up_to_degree_two_n_minus_one_and_not_beyo
       for (const RuleNode& node : gauss_legendre(n)) sum += node.weight * std::pow(node.u, power);
       return sum;
     };
-    for (int power = 0; power < 2 * n; ++power) EXPECT_NEAR(integral(power), 1.0 / (power + 1), 1e-14) << n << " points, u^" << power;
+    for (int power = 0; power < 2 * n; ++power)
+      EXPECT_NEAR(integral(power), 1.0 / (power + 1), 1e-14) << n << " points, u^" << power;
     if (n > 5) continue;  // beyond, the error of the next power drowns in rounding
     EXPECT_GT(std::abs(integral(2 * n) - 1.0 / (2 * n + 1)), 1e-8) << n;
   }

@@ -32,8 +32,10 @@ TEST(Radiosity, of_the_cube_is_the_exact_discrete_solution) {
     int n;
     double floor, ceiling, wall;
   };
-  for (const Row& row : {Row{.5, 2, 1.099015809466, .173639114749, .181836268946}, Row{.5, 4, 1.102645712382, .171829422310, .181381216327},
-                         Row{.8, 2, 1.572578202571, .668697021812, .689681193904}, Row{.8, 4, 1.582491239007, .663164443045, .688586079487}}) {
+  for (const Row& row : {Row{.5, 2, 1.099015809466, .173639114749, .181836268946},
+                         Row{.5, 4, 1.102645712382, .171829422310, .181381216327},
+                         Row{.8, 2, 1.572578202571, .668697021812, .689681193904},
+                         Row{.8, 4, 1.582491239007, .663164443045, .688586079487}}) {
     const auto s = solve(cube(row.rho), {.element_size = 1.0 / row.n, .tolerance = 1e-7});
     ASSERT_EQ(s.mesh.size(), 6 * row.n * row.n);
     EXPECT_NEAR(mean_over(s, s.radiosity, floor_id), row.floor, 1e-8);
@@ -81,7 +83,8 @@ TEST(Radiosity, of_a_furnace_is_one_to_ten_digits_with_closure_restored) {
 TEST(Radiosity, of_parallel_squares_converges_with_order_two_to_the_exact_means) {
   const auto errors = [](double h) {
     Room room;
-    const auto low = room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .3, 1), high = room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, .7);
+    const auto low = room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .3, 1),
+               high = room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, .7);
     const auto s = solve(room.finish(), {.element_size = h, .tolerance = 1e-6});
     EXPECT_FALSE(s.closed);
     return Vec2(mean_over(s, s.radiosity, low) - 1.008568960685, mean_over(s, s.radiosity, high) - 0.141092268875);
@@ -96,10 +99,11 @@ TEST(Radiosity, of_parallel_squares_converges_with_order_two_to_the_exact_means)
 /// An icosahedron's facets cut `levels` times, on the unit sphere, facing inwards; each a surface of its own.
 std::vector<geometry::TriangleCorners> icosphere(int levels) {
   const double p = 0.5 * (1 + std::sqrt(5.0));
-  const Vec3 v[] = {{-1, p, 0}, {1, p, 0}, {-1, -p, 0}, {1, -p, 0}, {0, -1, p}, {0, 1, p}, {0, -1, -p}, {0, 1, -p}, {p, 0, -1}, {p, 0, 1},
-                    {-p, 0, -1}, {-p, 0, 1}};
-  const int f[][3] = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                      {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  const Vec3 v[] = {{-1, p, 0},  {1, p, 0},  {-1, -p, 0}, {1, -p, 0}, {0, -1, p},  {0, 1, p},
+                    {0, -1, -p}, {0, 1, -p}, {p, 0, -1},  {p, 0, 1},  {-p, 0, -1}, {-p, 0, 1}};
+  const int f[][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   std::vector<geometry::TriangleCorners> triangles;
   for (const auto& t : f) triangles.push_back({v[t[0]].normalized(), v[t[2]].normalized(), v[t[1]].normalized()});
   for (int level = 0; level < levels; ++level) {
@@ -148,10 +152,10 @@ SphereErrors sphere_errors(int level) {
   return {std::abs(moment / (4 * pi / 3) - 1), std::sqrt(squares / area), field};
 }
 
-// truths.md 2.1: inside a sphere the irradiance is the same everywhere, <E> / (1 - rho), whatever E: 2 for E = 1 + cos(theta) and rho =
-// 1/2, so B = 2 + cos(theta).  (The area mean of H is exact for any facets, by the rows' sums.)  A weighted mean of B has order 2, by the
-// facets' area; the field has order 1, by E; and so has H, facet by facet: a facet's normal goes through its circumcentre and not
-// through its centroid.
+// truths.md 2.1: inside a sphere the irradiance is the same everywhere, <E> / (1 - rho), whatever E: 2 for E = 1 + cos(theta)
+// and rho = 1/2, so B = 2 + cos(theta).  (The area mean of H is exact for any facets, by the rows' sums.)  A weighted mean of
+// B has order 2, by the facets' area; the field has order 1, by E; and so has H, facet by facet: a facet's normal goes
+// through its circumcentre and not through its centroid.
 TEST(Radiosity, in_a_sphere_converges_to_uniform_irradiance) {
   const SphereErrors a = sphere_errors(1), b = sphere_errors(2);
   EXPECT_NEAR(std::log2(a.moment / b.moment), 2.0, 0.2);
@@ -176,8 +180,8 @@ scene::Scene furnished(const std::function<Vec3(const Vec3&)>& move) {
   wall({0, 1, 0}, {2, 0, 0}, {0, 0, 1}, .6, 0);
   wall({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, .5, 0);
   wall({2, 0, 0}, {0, 0, 1}, {0, 1, 0}, .5, .25);
-  wall({.5, .25, .5}, {.75, 0, 0}, {0, .5, 0}, .7, 0);        // a shelf: its upper side,
-  wall({.5, .25, .375}, {0, .5, 0}, {.75, 0, 0}, .7, 0);      // its lower side
+  wall({.5, .25, .5}, {.75, 0, 0}, {0, .5, 0}, .7, 0);    // a shelf: its upper side,
+  wall({.5, .25, .375}, {0, .5, 0}, {.75, 0, 0}, .7, 0);  // its lower side
   return builder.finish();
 }
 
@@ -187,19 +191,23 @@ void expect_same_radiosity(const RadiositySolution& a, const RadiositySolution& 
     for (int c = 0; c < 2; ++c) EXPECT_NEAR(a.radiosity[i][c] / b.radiosity[i][c], 1.0, relative) << i;
 }
 
-// The same rays, so the same visibility but where one grazes an edge within rounding; none does for this seed.  Adaptive quadrature may
-// break a tie between equal errors differently, which moves an entry within its tolerance of 1e-3: 1e-6 of the radiosity here.
+// The same rays, so the same visibility but where one grazes an edge within rounding; none does for this seed.  Adaptive
+// quadrature may break a tie between equal errors differently, which moves an entry within its tolerance of 1e-3: 1e-6 of the
+// radiosity here.
 TEST(Radiosity, does_not_depend_on_the_unit_the_place_or_the_orientation) {
   const auto plain = solve(furnished([](const Vec3& p) { return p; }), {.element_size = .25, .tolerance = 1e-3});
   EXPECT_GT(plain.pairs.sampled, 100u);
   for (double scale : {1e-6, 1e6}) {
-    const auto scaled = solve(furnished([&](const Vec3& p) -> Vec3 { return scale * p; }), {.element_size = .25 * scale, .tolerance = 1e-3});
+    const auto scaled = solve(furnished([&](const Vec3& p) -> Vec3 { return scale * p; }),
+                              {.element_size = .25 * scale, .tolerance = 1e-3});
     expect_same_radiosity(scaled, plain, 1e-6);
   }
-  const auto far = solve(furnished([](const Vec3& p) -> Vec3 { return p + Vec3(1e9, -1e9, 1e9); }), {.element_size = .25, .tolerance = 1e-3});
+  const auto far = solve(furnished([](const Vec3& p) -> Vec3 { return p + Vec3(1e9, -1e9, 1e9); }),
+                         {.element_size = .25, .tolerance = 1e-3});
   expect_same_radiosity(far, plain, 1e-6);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  const auto turned = solve(furnished([&](const Vec3& p) -> Vec3 { return turn * p + Vec3(3, 4, 5); }), {.element_size = .2500001, .tolerance = 1e-3});
+  const auto turned = solve(furnished([&](const Vec3& p) -> Vec3 { return turn * p + Vec3(3, 4, 5); }),
+                            {.element_size = .2500001, .tolerance = 1e-3});
   expect_same_radiosity(turned, plain, 1e-6);
 }
 
@@ -230,8 +238,8 @@ TEST(Radiosity, balances_its_energy_with_very_unequal_elements) {
   EXPECT_LT(std::abs(e.residual[0]), 1e-7 * e.emitted[0]);
 }
 
-// What a black back swallows is found by rays and by row sums alike: 4.1 standard errors, alpha 1e-4 for both; quadrature and visibility
-// noise in the row sums add their part.
+// What a black back swallows is found by rays and by row sums alike: 4.1 standard errors, alpha 1e-4 for both; quadrature and
+// visibility noise in the row sums add their part.
 TEST(Radiosity, finds_what_escapes_and_what_falls_on_backs) {
   Room room;
   room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .5, 1);

@@ -13,8 +13,8 @@ namespace {
 using test::Room;
 using test::solve;
 
-std::vector<Estimate> answers(const scene::Scene& scene, const RadiositySolution& solution, const std::vector<measure::Measurement>& asked,
-                              unsigned threads = 2) {
+std::vector<Estimate> answers(const scene::Scene& scene, const RadiositySolution& solution,
+                              const std::vector<measure::Measurement>& asked, unsigned threads = 2) {
   const auto rays = raycast::make_ray_caster("brute", scene);
   core::LocalRun run(1, threads);
   return RadiosityMethod(solution, *rays).answer(scene, asked, run.get());
@@ -30,8 +30,10 @@ scene::Scene plates() {
 struct Exact {
   double x, y, B1, B2;
 };
-const std::vector<Exact> at_points = {{0, 0, 1.010337339662, .169085413687}, {.25, .25, 1.008919660688, .146754402664},
-                                      {.5, 0, 1.007707844849, .127350747221}, {.5, .5, 1.005875595836, .097804812116}};
+const std::vector<Exact> at_points = {{0, 0, 1.010337339662, .169085413687},
+                                      {.25, .25, 1.008919660688, .146754402664},
+                                      {.5, 0, 1.007707844849, .127350747221},
+                                      {.5, .5, 1.005875595836, .097804812116}};
 
 // Corners too: the iterated value has order two everywhere, where the element's own has one.
 TEST(RadiosityMethod, gives_the_irradiance_at_points_within_its_bound) {
@@ -86,9 +88,11 @@ TEST(RadiosityMethod, of_patches_that_are_no_elements_is_the_mean_of_what_tiles_
   const auto s = solve(scene, {.element_size = .25});
   const Vec3 ring[] = {{.1, .1, 1}, {.1, .7, 1}, {.6, .7, 1}, {.6, .1, 1}};
   const Vec3 off_the_surface[] = {{5, 5, 1}, {5, 6, 1}, {6, 6, 1}};
-  const auto found = answers(scene, s, {measure::PatchIrradiance{scene::make_patch({1}, scene::Side::front, ring)},
-                                        measure::PatchIrradiance{scene::make_patch({1}, scene::Side::front, off_the_surface)}});
-  EXPECT_NEAR(found[0].value[0], .205, .01);  // between the middle's B2/.7 = .2416 and the mean .2016, nearer the middle
+  const auto found = answers(scene, s,
+                             {measure::PatchIrradiance{scene::make_patch({1}, scene::Side::front, ring)},
+                              measure::PatchIrradiance{scene::make_patch({1}, scene::Side::front, off_the_surface)}});
+  EXPECT_NEAR(found[0].value[0], .205,
+              .01);  // between the middle's B2/.7 = .2416 and the mean .2016, nearer the middle
   EXPECT_EQ(found[1].claim, Claim::none);
   EXPECT_TRUE(std::isinf(found[1].error_bound[0]));
 }
@@ -118,7 +122,8 @@ TEST(RadiosityMethod, answers_the_same_bits_for_any_number_of_threads) {
   const auto scene = room.finish();
   const auto s = solve(scene, {.element_size = .25});
   std::vector<measure::Measurement> asked;
-  for (int k = 0; k < 40; ++k) asked.push_back(measure::PointIrradiance{{.02 * k + .1, .5, 0}, Vec3::UnitZ(), scene::SurfaceId{4}});
+  for (int k = 0; k < 40; ++k)
+    asked.push_back(measure::PointIrradiance{{.02 * k + .1, .5, 0}, Vec3::UnitZ(), scene::SurfaceId{4}});
   const auto one = answers(scene, s, asked, 1);
   for (unsigned threads : {2u, 3u, 8u}) {
     const auto many = answers(scene, s, asked, threads);

@@ -16,8 +16,8 @@ inline scene::Material diffuse(double reflectance, double exitance = 0.0) {
 }
 
 /// n x n elements of a parallelogram: corner, then its sides; the front is along u x v.
-inline void add_grid(std::vector<scene::SurfacePatch>& out, scene::SurfaceId surface, const Vec3& corner, const Vec3& u, const Vec3& v,
-                     int n) {
+inline void add_grid(std::vector<scene::SurfacePatch>& out, scene::SurfaceId surface, const Vec3& corner, const Vec3& u,
+                     const Vec3& v, int n) {
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b) {
       const auto at = [&](int i, int j) -> Vec3 { return corner + u * (double(i) / n) + v * (double(j) / n); };
@@ -33,9 +33,11 @@ inline geometry::PlanarPolygon parallelogram(const Vec3& corner, const Vec3& u, 
 /// A scene and its elements, put together parallelogram by parallelogram.
 class Room {
  public:
-  explicit Room(std::vector<std::string> channels = {"y"}) : builder_(std::move(channels), scene::Quantity::radiometric) {}
+  explicit Room(std::vector<std::string> channels = {"y"})
+      : builder_(std::move(channels), scene::Quantity::radiometric) {}
 
-  scene::SurfaceId wall(const Vec3& corner, const Vec3& u, const Vec3& v, int n, double reflectance = 0.0, double exitance = 0.0) {
+  scene::SurfaceId wall(const Vec3& corner, const Vec3& u, const Vec3& v, int n, double reflectance = 0.0,
+                        double exitance = 0.0) {
     const auto material = builder_.add_material(diffuse(reflectance, exitance));
     const auto id = builder_.add_polygon("wall", parallelogram(corner, u, v), material);
     add_grid(patches, id, corner, u, v, n);
@@ -46,7 +48,8 @@ class Room {
     builder_.add_polygon("screen", parallelogram(corner, u, v), builder_.add_material(diffuse(0.0)));
   }
   /// The six walls of a box, n x n elements each, facing inwards or outwards.
-  void box(const Vec3& low, const Vec3& size, int n, bool inwards = true, double reflectance = 0.0, double exitance = 0.0) {
+  void box(const Vec3& low, const Vec3& size, int n, bool inwards = true, double reflectance = 0.0,
+           double exitance = 0.0) {
     for (int axis = 0; axis < 3; ++axis)
       for (int high = 0; high < 2; ++high) {
         Vec3 u = Vec3::Zero(), v = Vec3::Zero(), corner = low;
@@ -82,8 +85,8 @@ struct Assembled {
   Eigen::MatrixXd K, error;
   PairCounts pairs;
 };
-inline Assembled form_factors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, double tolerance, int rays = 16,
-                              std::uint64_t seed = 1) {
+inline Assembled form_factors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, double tolerance,
+                              int rays = 16, std::uint64_t seed = 1) {
   const auto caster = raycast::make_ray_caster("brute", scene);
   const auto method = make_form_factor_method("gauss-lambert", {scene, patches, *caster, seed, tolerance, rays});
   MatrixSink sink(patches.size());
@@ -113,7 +116,8 @@ inline RadiositySolution solve(const scene::Scene& scene, const SolveOptions& op
 }
 
 /// Area mean over a surface's elements.
-inline double mean_over(const RadiositySolution& s, std::span<const Spectrum> values, scene::SurfaceId surface, int channel = 0) {
+inline double mean_over(const RadiositySolution& s, std::span<const Spectrum> values, scene::SurfaceId surface,
+                        int channel = 0) {
   double sum = 0, area = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (s.mesh.patches()[i].surface == surface) {
