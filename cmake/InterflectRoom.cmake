@@ -30,7 +30,8 @@ if(INTERFLECT_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(interflect_options INTERFACE -march=${INTERFLECT_ARCH})
 endif()
 if(INTERFLECT_SANITIZE)
-  target_compile_options(interflect_options INTERFACE -fsanitize=${INTERFLECT_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(interflect_options INTERFACE -fsanitize=${INTERFLECT_SANITIZE} -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # instrumented code hides from GCC 12 what was initialised
   target_link_options(interflect_options INTERFACE -fsanitize=${INTERFLECT_SANITIZE})
 endif()
 

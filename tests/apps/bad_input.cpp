@@ -112,5 +112,19 @@ TEST(BadInput, more_memory_than_allowed) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST(BadInput, no_memory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take more address space than the limit";
+#endif
+  const TemporaryFolder folder;
+  const Outcome outcome = interflect({"solve", shipped_scene("office"), "-o", folder / "out", "--element-size", "0.1",
+                                      "--max-memory", "20GB", "--quiet"},
+                                     {.memory_limit_kb = 1'500'000});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("memory"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
+}
+
 }  // namespace
 }  // namespace interflect::test

@@ -125,5 +125,24 @@ TEST(Trace, writes_both_pictures_and_repeats_itself) {
   EXPECT_EQ(read_file(folder / "a.exr"), read_file(folder / "b.exr"));
 }
 
+TEST(Interrupted, a_picture_is_kept_with_the_samples_so_far) {
+  const TemporaryFolder folder;
+  const Outcome trace = interflect({"trace", shipped_scene("cornell_box"), "--spp", "1000000", "-o", folder / "c.exr"},
+                                   {.interrupt_after_s = 5});
+  EXPECT_EQ(trace.status, 1) << trace.err;
+  EXPECT_TRUE(contains(trace.out, "samples a pixel")) << trace.out;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "c.exr") && std::filesystem::exists(folder.path() / "c.png"));
+}
+
+TEST(Interrupted, a_solve_without_form_factors_leaves_nothing_half_written) {
+  const TemporaryFolder folder;
+  const Outcome solve = interflect({"solve", shipped_scene("office"), "--element-size", "0.12", "--max-memory", "9GB", "--quiet", "-o",
+                                    folder / "out"},
+                                   {.interrupt_after_s = 3});
+  EXPECT_EQ(solve.status, 1) << solve.err;
+  EXPECT_TRUE(contains(solve.err, "interrupted during")) << solve.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
+}
+
 }  // namespace
 }  // namespace interflect::test

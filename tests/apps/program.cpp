@@ -1,37 +1,60 @@
 #include "tests/apps/program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 extern char** environ;
 
 namespace interflect::test {
 
-Outcome interflect(const std::vector<std::string>& arguments) {
-  const TemporaryFolder folder;
-  const std::string out = folder / "out", err = folder / "err";
-  std::string program = INTERFLECT_PROGRAM;
-  std::vector<std::string> copy = arguments;
-  std::vector<char*> argv{program.data()};
-  for (std::string& a : copy) argv.push_back(a.data());
-  argv.push_back(nullptr);
+namespace {
 
+/// The words of a command, through a shell only where a limit must be set.
+std::vector<std::string> command_of(const std::vector<std::string>& arguments, long memory_limit_kb) {
+  std::vector<std::string> words;
+  if (memory_limit_kb > 0)
+    words = {"/bin/sh", "-c", "ulimit -v " + std::to_string(memory_limit_kb) + "; exec \"$@\"", "sh"};
+  words.emplace_back(INTERFLECT_PROGRAM);
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+pid_t start(std::vector<std::string> words, const std::string& out, const std::string& err) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
   pid_t pid = 0;
-  if (posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ) != 0)
-    throw std::runtime_error("cannot start " + program);
+  const int failed = posix_spawn(&pid, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) throw std::runtime_error("cannot start " + words[0]);
+  return pid;
+}
+
+}  // namespace
+
+Outcome interflect(const std::vector<std::string>& arguments, const Circumstances& circumstances) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out", err = folder / "err";
+  const pid_t pid = start(command_of(arguments, circumstances.memory_limit_kb), out, err);
+  if (circumstances.interrupt_after_s > 0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(circumstances.interrupt_after_s));
+    kill(pid, SIGINT);
+  }
   int status = 0;
   waitpid(pid, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(out), read_file(err)};

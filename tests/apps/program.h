@@ -12,8 +12,14 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `interflect ARGUMENTS` through no shell.
-Outcome interflect(const std::vector<std::string>& arguments);
+/// What happens to the program while it runs.
+struct Circumstances {
+  long memory_limit_kb = 0;        ///< address space that it may have; 0: no limit
+  double interrupt_after_s = 0;    ///< Ctrl-C comes then; 0: never
+};
+
+/// Runs `interflect ARGUMENTS`.
+Outcome interflect(const std::vector<std::string>& arguments, const Circumstances& circumstances = {});
 
 /// A folder that is gone at the end of the test.
 class TemporaryFolder {
