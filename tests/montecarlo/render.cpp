@@ -53,7 +53,7 @@ TEST(Render, agrees_with_the_measurement_of_single_pixels) {
   const Rendering found = render(scene, {0}, 4096, run);
   std::vector<measure::Measurement> asked;
   for (int y = 0; y < 10; y += 3)
-    for (int x = 0; x < 12; x += 3) asked.push_back(measure::PixelRadiance{{0}, x, y});
+    for (int x = 0; x < 12; x += 3) asked.emplace_back(measure::PixelRadiance{{0}, x, y});
   const auto pixels = PathTracer({.samples = 4096}).answer(scene, asked, run);
   const double limit = test::critical_z(test::alpha, 2 * pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
