@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
@@ -58,6 +59,15 @@ std::optional<int> read_number(int pipe) {
   return std::atoi(text.c_str());
 }
 
+/// What a killed server could not remove itself, unless another one has taken its number: then the lock names that one.
+void tidy_up_after(pid_t server, int number) {
+  const std::string lock = core::format("/tmp/.X%d-lock", number);
+  pid_t owner = 0;
+  if (!(std::ifstream(lock) >> owner) || owner != server) return;
+  ::unlink(core::format("/tmp/.X11-unix/X%d", number).c_str());
+  ::unlink(lock.c_str());
+}
+
 }  // namespace
 
 XServer::XServer() {
@@ -89,10 +99,7 @@ void XServer::end() {
       ::kill(process_, SIGKILL);
       killed = true;
     }
-  if (killed && number_ >= 0) {  // it could not tidy up itself
-    ::unlink(core::format("/tmp/.X%d-lock", number_).c_str());
-    ::unlink(core::format("/tmp/.X11-unix/X%d", number_).c_str());
-  }
+  if (killed && number_ >= 0) tidy_up_after(process_, number_);
   process_ = -1;
 }
 

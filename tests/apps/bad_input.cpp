@@ -103,7 +103,7 @@ TEST(BadInput, a_picture_format_that_is_not_known) {
 TEST(BadInput, a_folder_that_cannot_be_written) {
   expect_refused({"solve", shipped_scene("cube"), "-o", "/proc/interflect"}, "/proc/interflect");
   const TemporaryFolder folder;
-  expect_refused({"solve", shipped_scene("cube"), "-o", folder.write("file", "") + "/out"}, "file");
+  expect_refused({"solve", shipped_scene("cube"), "-o", folder.write("file", "") / "out"}, "file");
 }
 
 TEST(BadInput, more_memory_than_allowed) {

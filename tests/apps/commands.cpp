@@ -74,7 +74,7 @@ TEST(Solve, writes_every_file_and_the_same_numbers_again) {
       EXPECT_TRUE(std::filesystem::exists(folder.path() / name / file)) << file;
   }
   for (const char* file : {"/solution.vtu", "/surfaces.csv", "/sensors.csv"})
-    EXPECT_EQ(read_file(folder / "a" + file), read_file(folder / "b" + file)) << file;
+    EXPECT_EQ(read_file(folder / ("a" + std::string(file))), read_file(folder / ("b" + std::string(file)))) << file;
 }
 
 // The cube with a glowing floor has an exact discrete solution on 4 x 4 constant elements a face, rho = 1/2: mean radiosity of

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 namespace interflect::test {
 
@@ -20,23 +21,5 @@ struct Circumstances {
 
 /// Runs `interflect ARGUMENTS`.
 Outcome interflect(const std::vector<std::string>& arguments, const Circumstances& circumstances = {});
-
-/// A folder that is gone at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::string write(const std::string& name, const std::string& content) const;  ///< path of the file written
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string read_file(const std::filesystem::path& path);
-std::string shipped_scene(const std::string& name);  ///< data/scenes/NAME.json
 
 }  // namespace interflect::test

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "tests/fem/rooms.h"
+#include "tests/support/shapes.h"
 
 namespace interflect::fem {
 namespace {
@@ -96,27 +97,6 @@ TEST(Radiosity, of_parallel_squares_converges_with_order_two_to_the_exact_means)
   }
 }
 
-/// An icosahedron's facets cut `levels` times, on the unit sphere, facing inwards; each a surface of its own.
-std::vector<geometry::TriangleCorners> icosphere(int levels) {
-  const double p = 0.5 * (1 + std::sqrt(5.0));
-  const Vec3 v[] = {{-1, p, 0},  {1, p, 0},  {-1, -p, 0}, {1, -p, 0}, {0, -1, p},  {0, 1, p},
-                    {0, -1, -p}, {0, 1, -p}, {p, 0, -1},  {p, 0, 1},  {-p, 0, -1}, {-p, 0, 1}};
-  const int f[][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-  std::vector<geometry::TriangleCorners> triangles;
-  for (const auto& t : f) triangles.push_back({v[t[0]].normalized(), v[t[2]].normalized(), v[t[1]].normalized()});
-  for (int level = 0; level < levels; ++level) {
-    std::vector<geometry::TriangleCorners> cut;
-    for (const auto& [a, b, c] : triangles) {
-      const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
-      cut.insert(cut.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    triangles = cut;
-  }
-  return triangles;
-}
-
 /// B on the facets of an icosphere for E = 1 + cos(theta) at their centroids, rho = 1/2.
 struct SphereErrors {
   double moment;      ///< of sum A B cos(theta), relative
@@ -126,7 +106,7 @@ struct SphereErrors {
 SphereErrors sphere_errors(int level) {
   scene::SceneBuilder builder({"y"});
   std::vector<scene::SurfacePatch> patches;
-  for (const auto& triangle : icosphere(level)) {
+  for (const auto& triangle : interflect::test::icosphere(level, 1, true)) {
     const auto id = builder.add_facets("s", std::span(&triangle, 1), builder.add_material(test::diffuse(.5)));
     patches.push_back(scene::make_patch(id, scene::Side::front, triangle));
   }

@@ -1,5 +1,5 @@
 #include "tests/montecarlo/statistics.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 // Closed rooms: what is emitted is absorbed.  Truths: truths.md 2.0, 2.1, 2.6, or derived beside the test.
 namespace interflect::montecarlo {

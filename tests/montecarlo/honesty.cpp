@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "tests/montecarlo/statistics.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 // What the path tracer says of itself: standard errors, targets, repeatability, interruption.
 namespace interflect::montecarlo {

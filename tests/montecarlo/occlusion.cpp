@@ -1,5 +1,5 @@
 #include "tests/montecarlo/statistics.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 // Bodies in the way.  Truths: truths.md 2.2, 2.9 and 2.11.
 namespace interflect::montecarlo {

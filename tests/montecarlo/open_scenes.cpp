@@ -1,5 +1,5 @@
 #include "tests/montecarlo/statistics.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 // Plates in the open.  Truths: truths.md 2.4 and 2.11, or closed forms beside the test.
 namespace interflect::montecarlo {

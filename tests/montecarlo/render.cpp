@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "tests/montecarlo/statistics.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace interflect::montecarlo {
 namespace {

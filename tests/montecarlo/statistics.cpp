@@ -2,7 +2,7 @@
 
 #include <gtest/gtest-spi.h>
 
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace interflect::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "montecarlo/emitters.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace interflect::montecarlo {
 namespace {

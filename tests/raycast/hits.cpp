@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "raycast/ray_caster.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace interflect::raycast {
 namespace {

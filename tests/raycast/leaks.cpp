@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "raycast/ray_caster.h"
-#include "tests/raycast/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace interflect::raycast {
 namespace {

@@ -5,7 +5,7 @@
 #include <sys/resource.h>
 
 #include "core/error.h"
-#include "scratch.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace interflect;
 using namespace interflect::results;
@@ -42,17 +42,17 @@ class FullDisk {
 }  // namespace
 
 TEST(AtomicFile, what_is_written_is_read_and_nothing_else_is_left) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   const std::string bytes("a\0b\r\n\xff", 6);
   write_atomically(scratch / "file", bytes);
-  EXPECT_EQ(contents(scratch / "file"), bytes);
+  EXPECT_EQ(test::read_file(scratch / "file"), bytes);
   write_atomically(scratch / "file", "new");
-  EXPECT_EQ(contents(scratch / "file"), "new");
+  EXPECT_EQ(test::read_file(scratch / "file"), "new");
   EXPECT_EQ(scratch.files(), 1u);
 }
 
 TEST(AtomicFile, a_full_disk_leaves_the_old_file_and_nothing_else) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   write_atomically(scratch / "file", "old");
   std::string message;
   {
@@ -60,20 +60,20 @@ TEST(AtomicFile, a_full_disk_leaves_the_old_file_and_nothing_else) {
     message = message_of([&] { write_atomically(scratch / "file", std::string(100000, 'x')); });
   }
   EXPECT_EQ(message, (scratch / "file").string() + ": cannot be written: File too large");
-  EXPECT_EQ(contents(scratch / "file"), "old");
+  EXPECT_EQ(test::read_file(scratch / "file"), "old");
   EXPECT_EQ(scratch.files(), 1u);
 }
 
 TEST(AtomicFile, a_place_that_cannot_be_written_is_named_in_one_line) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   EXPECT_EQ(message_of([&] { write_atomically(scratch / "no/such/file", "x"); }),
             (scratch / "no/such/file").string() + ": cannot be written: No such file or directory");
-  EXPECT_NE(message_of([&] { write_atomically(scratch.folder(), "x"); }), "");
+  EXPECT_NE(message_of([&] { write_atomically(scratch.path(), "x"); }), "");
   EXPECT_EQ(scratch.files(), 0u);
 }
 
 TEST(AtomicFile, files_get_the_permissions_that_other_programs_give) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   write_atomically(scratch / "ours", "x");
   std::ofstream(scratch / "theirs") << "x";
   EXPECT_EQ(std::filesystem::status(scratch / "ours").permissions(),
@@ -81,14 +81,14 @@ TEST(AtomicFile, files_get_the_permissions_that_other_programs_give) {
 }
 
 TEST(AtomicFile, an_output_directory_is_made_with_its_parents_and_left_empty) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   prepare_output_directory(scratch / "a/b/c");
   prepare_output_directory(scratch / "a/b/c");
   EXPECT_TRUE(std::filesystem::is_empty(scratch / "a/b/c"));
 }
 
 TEST(AtomicFile, an_output_directory_that_cannot_be_used_is_refused_before_any_work) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   std::ofstream(scratch / "file") << "x";
   EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "file"); }),
             (scratch / "file").string() + ": cannot be written: Not a directory");

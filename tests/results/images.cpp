@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "results/atomic_file.h"
 #include "results/image_file.h"
-#include "scratch.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace interflect;
 using namespace interflect::results;
@@ -28,7 +28,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
 }  // namespace
 
 TEST(Images, exr_reads_back_bit_by_bit_in_the_order_of_the_channels) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   for (const auto& channels : {std::vector<std::string>{"r", "g", "b"}, {"uv", "nir", "400nm"}, {"Y"}}) {
     const core::Image image = gradient(37, 11, channels);
     write_image(scratch / "image.exr", image);
@@ -42,7 +42,7 @@ TEST(Images, exr_reads_back_bit_by_bit_in_the_order_of_the_channels) {
 }
 
 TEST(Images, what_is_no_exr_is_refused_in_one_line) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   write_atomically(scratch / "image.exr", "this is no image");
   for (const char* name : {"image.exr", "missing.exr"}) try {
       read_exr(scratch / name);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "scratch.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace interflect;
 using namespace interflect::results;
@@ -48,7 +48,7 @@ TEST(Record, text_that_is_not_utf8_still_makes_valid_json) {
 }
 
 TEST(Record, is_written_as_a_file) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   write_json(scratch / "summary.json", Record().add("elements", 5));
-  EXPECT_EQ(contents(scratch / "summary.json"), "{\n  \"elements\": 5\n}\n");
+  EXPECT_EQ(test::read_file(scratch / "summary.json"), "{\n  \"elements\": 5\n}\n");
 }

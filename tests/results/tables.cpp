@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "results/csv.h"
-#include "scratch.h"
+#include "tests/support/temporary_folder.h"
 #include "tiny_mesh.h"
 
 using namespace interflect;
@@ -107,12 +107,12 @@ TEST(Tables, an_estimate_of_irradiance_gives_the_same_columns) {
 }
 
 TEST(Tables, sensors_are_written_with_place_direction_and_error) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   const std::vector<measure::SensorPoint> points{{"desk", 0, {Vec3(1, 2, 0.75), Vec3(0, 0, 1), {}}},
                                                  {"desk", 1, {Vec3(1.5, 2, 0.75), Vec3(0, 0, 1), {}}}};
   const std::vector<Estimate> values{{Spectrum(400), Spectrum(1), Spectrum(2), Claim::estimated, 5}, Estimate{}};
   write_sensors_csv(scratch / "sensors.csv", points, values, 1);
-  const auto lines = parsed(contents(scratch / "sensors.csv"));
+  const auto lines = parsed(test::read_file(scratch / "sensors.csv"));
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1], (std::vector<std::string>{"desk", "0", "1", "2", "0.75", "0", "0", "1", "400", "3.95996398454"}));
   EXPECT_EQ(lines[2].back(), "inf");

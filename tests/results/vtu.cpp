@@ -6,7 +6,7 @@
 #include <stack>
 
 #include "core/error.h"
-#include "scratch.h"
+#include "tests/support/temporary_folder.h"
 #include "tiny_mesh.h"
 
 using namespace interflect;

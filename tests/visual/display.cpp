@@ -29,15 +29,28 @@ bool alive(pid_t process) {
   return state != 'Z' && state != 'X';
 }
 
-bool gone_within(pid_t process, std::chrono::seconds patience) {
+template <class Condition>
+bool happens_within(std::chrono::seconds patience, const Condition& condition) {
   for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;
        std::this_thread::sleep_for(std::chrono::milliseconds(20)))
-    if (!alive(process)) return true;
-  return !alive(process);
+    if (condition()) return true;
+  return condition();
 }
 
-std::string lock_of(int number) { return core::format("/tmp/.X%d-lock", number); }
-std::string socket_of(int number) { return core::format("/tmp/.X11-unix/X%d", number); }
+bool gone_within(pid_t process, std::chrono::seconds patience) {
+  return happens_within(patience, [=] { return !alive(process); });
+}
+
+/// Has the server taken its files with it?  Another program may use its number by now: then the lock names that one.
+bool has_tidied_up(pid_t process, int number) {
+  std::ifstream lock(core::format("/tmp/.X%d-lock", number));
+  if (pid_t owner = 0; lock >> owner) return owner != process;
+  return !std::filesystem::exists(core::format("/tmp/.X11-unix/X%d", number));
+}
+
+bool tidies_up_within(pid_t process, int number, std::chrono::seconds patience) {
+  return happens_within(patience, [=] { return has_tidied_up(process, number); });
+}
 
 /// An environment variable for the length of a scope; null: unset.
 class Environment {
@@ -58,18 +71,16 @@ class Environment {
 
 TEST(Display, a_server_of_ours_ends_without_a_zombie_or_a_lock_file) {
   pid_t process = 0;
-  std::string lock, socket;
+  int number = 0;
   {
     const XServer server;
     process = server.process();
-    lock = lock_of(server.number());
-    socket = socket_of(server.number());
+    number = server.number();
     EXPECT_TRUE(alive(process));
-    EXPECT_TRUE(std::filesystem::exists(socket));
+    EXPECT_FALSE(has_tidied_up(process, number));
   }
   EXPECT_EQ(::kill(process, 0), -1);  // collected, not a zombie
-  EXPECT_FALSE(std::filesystem::exists(lock));
-  EXPECT_FALSE(std::filesystem::exists(socket));
+  EXPECT_TRUE(tidies_up_within(process, number, std::chrono::seconds(20)));
 }
 
 TEST(Display, two_servers_get_along) {
@@ -91,8 +102,7 @@ TEST(Display, a_server_ends_with_a_program_that_is_killed) {
   ASSERT_EQ(::read(ends[0], told, sizeof told), static_cast<ssize_t>(sizeof told));
   ::waitpid(program, nullptr, 0);
   EXPECT_TRUE(gone_within(told[0], std::chrono::seconds(20)));
-  EXPECT_FALSE(std::filesystem::exists(lock_of(told[1])));
-  EXPECT_FALSE(std::filesystem::exists(socket_of(told[1])));
+  EXPECT_TRUE(tidies_up_within(told[0], told[1], std::chrono::seconds(20)));
   ::close(ends[0]);
   ::close(ends[1]);
 }
