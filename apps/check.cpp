@@ -1,11 +1,10 @@
 #include <cstdio>
 
 #include "apps/commands.h"
-#include "apps/solved_scene.h"
+#include "apps/read_scene.h"
 #include "core/format.h"
 #include "raycast/exposure.h"
 #include "results/record.h"
-#include "results/tables.h"
 #include "scene/inspection.h"
 
 namespace interflect::apps {
@@ -38,7 +37,7 @@ std::vector<Line> findings(const scene::Scene& scene, Run& run) {
     if (e.backs > noticeable_backs)
       lines.push_back({"backs in sight", core::format("%s sees black backs in %.1f %% of its hemisphere: is it, or what surrounds "
                                                       "it, flipped?",
-                                                      results::side_name(scene, e.surface, e.side).c_str(), 100 * e.backs)});
+                                                      scene.side_name(e.surface, e.side).c_str(), 100 * e.backs)});
   return lines;
 }
 

@@ -1,7 +1,7 @@
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <charconv>
 #include <memory>
 
 #include "core/build_info.h"
@@ -57,8 +57,21 @@ struct Fraction : CLI::Validator {
   }
 };
 
+/// 0 .. 2^64 - 1; the parser itself would take "-1" for the largest.
+struct Seed : CLI::Validator {
+  Seed() : Validator("NUMBER") {
+    func_ = [](std::string& text) {
+      std::uint64_t value = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error == std::errc() && end == text.data() + text.size()) return std::string();
+      return "'" + text + "' is not a whole number from 0 to 18446744073709551615";
+    };
+  }
+};
+
 void add_common(CLI::App& app, CommonOptions& common) {
-  app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")->capture_default_str();
+  app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")->check(Seed())
+      ->capture_default_str();
   app.add_option("--threads", common.threads, "Threads to use (0: all); results do not depend on it")
       ->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--json", common.json, "Print the result as one JSON object");
@@ -72,7 +85,7 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
 
 void add_radiosity(CLI::App& command, SolveOptions& options) {
   fem::RadiositySettings& s = options.settings;
-  command.add_option("-o,--out", options.out, "Folder for the results")->required();
+  CLI::Option* out = command.add_option("-o,--out", options.out, "Folder for the results")->required();
   command.add_option("--element-size", s.element_size, "Longest edge of an element [m]; default: for about 2 500 elements")
       ->check(CLI::PositiveNumber);
   command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")->transform(Memory())
@@ -89,7 +102,10 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
   command.add_option("--intersector", s.intersector, "Ray caster; brute is slow, double precision, for checking")
       ->check(CLI::IsMember(raycast::ray_caster_names()))->capture_default_str();
   command.add_flag("--restore-closure", s.restore_closure, "Closed scenes: change the form factors least so that rows sum to 1");
-  command.add_flag("--forecast", options.forecast_only, "Say what it would need, and stop");
+  command.add_flag_callback("--forecast", [&options, out] {
+    options.forecast_only = true;
+    out->required(false);
+  }, "Say what it would need, and stop: no --out is needed");
   command.add_flag("!--no-pictures", options.pictures, "Write no PNG");
 }
 

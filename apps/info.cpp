@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "apps/commands.h"
-#include "apps/solved_scene.h"
+#include "apps/read_scene.h"
 #include "apps/table.h"
 #include "core/format.h"
 #include "results/record.h"
@@ -49,13 +49,10 @@ void print_text(const scene::Scene& scene, const scene::Inspection& inspection) 
   for (int c = 0; c < scene.channel_count(); ++c)
     channels += core::format("%s%s (weight %.4g)", c > 0 ? ", " : "", scene.channels[static_cast<std::size_t>(c)].c_str(), scene.weights[c]);
   std::printf("%s\n%s\n", surfaces_text(scene).c_str(), materials_text(scene).c_str());
-  const auto box = scene.box();
-  const Vec3 low = box.min(), high = box.max(), size = box.sizes();
   double area = 0;
   for (scene::SurfaceId id : scene.surface_ids()) area += scene.area(id);
   std::printf("surfaces       %zu, %zu facets, %.6g m2\n", scene.surfaces.size(), scene.facets.size(), area);
-  std::printf("bounding box   %.6g x %.6g x %.6g m, from (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g)\n", size.x(), size.y(), size.z(),
-              low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+  std::printf("bounding box   %s\n", box_text(scene).c_str());
   std::printf("channels       %s\n", channels.c_str());
   std::printf("emitted flux   %.6g %s (%s)\n", scene.weigh(scene.emitted_flux()), scene.flux_unit(),
               spectrum_text(scene.emitted_flux(), scene.channel_count()).c_str());
@@ -63,7 +60,7 @@ void print_text(const scene::Scene& scene, const scene::Inspection& inspection) 
   std::printf("sensors        %zu\ncameras        %zu\n", scene.sensors.size(), scene.cameras.size());
   for (const scene::Camera& camera : scene.cameras)
     std::printf("               %s, %d x %d pixels\n", camera.name.c_str(), camera.width, camera.height);
-  for (const scene::Note& note : scene.repairs) std::printf("repair         %s: %s\n", note.place.c_str(), note.message.c_str());
+  for (const scene::Note& note : scene.repairs) std::printf("repair         %s\n", note.line().c_str());
 }
 
 results::Record record_of(const scene::Scene& scene, const scene::Inspection& inspection) {
@@ -82,9 +79,6 @@ results::Record record_of(const scene::Scene& scene, const scene::Inspection& in
                             .add("reflectance", m.reflectance, channels)
                             .add("exitance", m.exitance, channels)
                             .add("sides", sides_text(m.sides)));
-  results::Record::Strings repairs, warnings;
-  for (const scene::Note& note : scene.repairs) repairs.push_back(note.place + ": " + note.message);
-  for (const scene::Note& note : scene.warnings) warnings.push_back(note.place + ": " + note.message);
   const Vec3 low = scene.box().min(), high = scene.box().max();
   record.add("scene", scene.file.string())
       .add("channels", scene.channels)
@@ -96,8 +90,8 @@ results::Record record_of(const scene::Scene& scene, const scene::Inspection& in
       .add("emitted_flux", scene.emitted_flux(), channels)
       .add("closed", inspection.closed())
       .add("open_edge_length_m", inspection.open_edge_length)
-      .add("repairs", std::move(repairs))
-      .add("warnings", std::move(warnings));
+      .add("repairs", lines_of(scene.repairs))
+      .add("warnings", lines_of(scene.warnings));
   return record;
 }
 

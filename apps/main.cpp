@@ -29,11 +29,17 @@ int run(int argc, char** argv) {
   return command->execute(common, session.run());
 }
 
+/// Results that did not arrive are no success.
+int with_output_flushed(int status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  return complain("standard output cannot be written", apps::bad_input);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return with_output_flushed(run(argc, argv));
   } catch (const core::InputError& error) {
     return complain(error.what(), apps::bad_input);
   } catch (const core::Interrupted& stop) {

@@ -1,71 +1,21 @@
 #include "apps/pictures.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "results/tone_mapping.h"
+#include "core/error.h"
+#include "core/format.h"
+#include "core/log.h"
+#include "montecarlo/render.h"
+#include "results/comparison_panels.h"
+#include "results/image_file.h"
+#ifdef INTERFLECT_WITH_VTK
+#include "visual/comparison_picture.h"
+#endif
 
 namespace interflect::apps {
 namespace {
 
-constexpr int gap = 8;    ///< pixels between pictures
-constexpr int block = 6;  ///< pixels of a side over which differences are averaged
+constexpr double difference_scale = 0.1;  ///< relative difference at full colour
 
-std::vector<std::string> rgb_names() { return {"R", "G", "B"}; }
-
-Spectrum pixel_of(const core::Image& image, int x, int y) {
-  Spectrum s;
-  for (int c = 0; c < static_cast<int>(image.channels.size()); ++c) s[c] = static_cast<double>(image.at(x, y, c));
-  return s;
-}
-
-/// White at 0, blue at -1, red at 1.
-std::array<double, 3> diverging(double t) {
-  t = std::clamp(t, -1.0, 1.0);
-  const std::array<double, 3> end = t < 0 ? std::array{0.13, 0.40, 0.67} : std::array{0.70, 0.09, 0.17};
-  std::array<double, 3> colour{};
-  for (std::size_t c = 0; c < 3; ++c) colour[c] = 1 + std::abs(t) * (end[c] - 1);
-  return colour;
-}
-
-/// Weighted radiance, mean over square blocks of pixels: a single traced pixel is noise.
-core::Image block_means(const scene::Scene& scene, const core::Image& image) {
-  core::Image means((image.width + block - 1) / block, (image.height + block - 1) / block, {"Y", "pixels"});
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      means.at(x / block, y / block, 0) += static_cast<float>(scene.weigh(pixel_of(image, x, y)));
-      means.at(x / block, y / block, 1) += 1;
-    }
-  for (int y = 0; y < means.height; ++y)
-    for (int x = 0; x < means.width; ++x) means.at(x, y, 0) /= means.at(x, y, 1);
-  return means;
-}
-
-core::Image difference_picture(const scene::Scene& scene, const core::Image& fem, const core::Image& traced, double full_scale) {
-  const core::Image means_fem = block_means(scene, fem), means_traced = block_means(scene, traced);
-  core::Image picture(fem.width, fem.height, rgb_names());
-  for (int y = 0; y < fem.height; ++y)
-    for (int x = 0; x < fem.width; ++x) {
-      const auto a = static_cast<double>(means_fem.at(x / block, y / block, 0));
-      const auto b = static_cast<double>(means_traced.at(x / block, y / block, 0)), mean = 0.5 * (a + b);
-      const auto colour = diverging(mean > 0 ? (a - b) / (mean * full_scale) : 0);
-      for (int c = 0; c < 3; ++c) picture.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]);
-    }
-  return picture;
-}
-
-}  // namespace
-
-core::Image as_rgb(const scene::Scene& scene, const core::Image& radiance) {
-  core::Image rgb(radiance.width, radiance.height, rgb_names());
-  for (int y = 0; y < rgb.height; ++y)
-    for (int x = 0; x < rgb.width; ++x) {
-      const auto colour = scene.rgb(pixel_of(radiance, x, y));
-      for (int c = 0; c < 3; ++c) rgb.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]);
-    }
-  return rgb;
-}
-
+/// What a method sees through a camera: one PixelRadiance a pixel [W/(m² sr) | cd/m²].
 core::Image picture_of(const measure::Method& method, const scene::Scene& scene, scene::CameraId camera, Run& run) {
   core::Image image(scene.camera(camera).width, scene.camera(camera).height, scene.channels);
   std::vector<measure::Measurement> asked;
@@ -79,11 +29,33 @@ core::Image picture_of(const measure::Method& method, const scene::Scene& scene,
   return image;
 }
 
-core::Image comparison_picture(const scene::Scene& scene, const core::Image& fem, const core::Image& traced, double full_scale) {
-  const core::Image left = as_rgb(scene, fem), right = as_rgb(scene, traced);
-  const results::ToneMapping tone{.white = results::white_of(right)};
-  return core::side_by_side({results::tone_mapped(left, tone), results::tone_mapped(right, tone),
-                             difference_picture(scene, fem, traced, full_scale)}, gap);
+core::Image beside_each_other(const results::ComparisonPanels& panels, [[maybe_unused]] std::uint64_t samples) {
+#ifdef INTERFLECT_WITH_VTK
+  return visual::comparison_picture(panels, samples, difference_scale);
+#else
+  constexpr int gap = 8;  // pixels
+  return core::side_by_side({panels.fem, panels.traced, panels.difference}, gap);
+#endif
+}
+
+/// Numbered: a camera's name need not be one for a file.
+std::string file_name(std::uint32_t camera) {
+  return camera == 0 ? "validation.png" : core::format("validation_%u.png", camera + 1);
+}
+
+}  // namespace
+
+void write_comparisons(const SolvedScene& solved, const ValidateOptions& options, Run& run) try {
+  for (std::uint32_t c = 0; c < solved.scene.cameras.size(); ++c) {
+    run.throw_if_stopped("pictures");
+    const core::Image fem = picture_of(solved.method(), solved.scene, {c}, run);
+    const auto samples = static_cast<std::uint64_t>(options.picture_samples);
+    const montecarlo::Rendering traced = montecarlo::render(solved.scene, {c}, samples, run, options.solve.settings.intersector);
+    const auto panels = results::comparison_panels(solved.scene, fem, traced.radiance, difference_scale);
+    results::write_png(options.solve.out / file_name(c), beside_each_other(panels, traced.samples));
+  }
+} catch (const core::Interrupted&) {
+  core::log::warning("stopped: not every picture was drawn");
 }
 
 }  // namespace interflect::apps

@@ -1,8 +1,6 @@
 #include "apps/questions.h"
 
 #include "core/format.h"
-#include "measure/sensor_points.h"
-#include "results/tables.h"
 #include "validation/element_choice.h"
 
 namespace interflect::apps {
@@ -16,7 +14,7 @@ struct SideOf {
 };
 
 SideOf side_of(const scene::Scene& scene, const mesh::ElementMesh::Part& part) {
-  return {results::side_name(scene, part.surface, part.side), !scene.material(part.surface).exitance_of(part.side).is_zero()};
+  return {scene.side_name(part.surface, part.side), !scene.material(part.surface).exitance_of(part.side).is_zero()};
 }
 
 void ask_surfaces(const scene::Scene& scene, const mesh::ElementMesh& mesh, Questions& questions) {
@@ -46,8 +44,8 @@ void ask_elements(const scene::Scene& scene, const mesh::ElementMesh& mesh, std:
   }
 }
 
-void ask_sensors(const scene::Scene& scene, Questions& questions) {
-  for (const measure::SensorPoint& point : measure::sensor_points(scene)) {
+void ask_sensors(std::span<const measure::SensorPoint> points, Questions& questions) {
+  for (const measure::SensorPoint& point : points) {
     questions.asked.emplace_back(point.at);
     questions.judged.push_back({.name = core::format("%s[%d]", point.sensor.c_str(), point.index), .kind = Judged::Kind::sensor,
                                 .fem = {}, .mc = {}, .group = point.sensor});
@@ -56,12 +54,12 @@ void ask_sensors(const scene::Scene& scene, Questions& questions) {
 
 }  // namespace
 
-Questions questions_about(const scene::Scene& scene, const fem::RadiositySolution& solution, std::size_t elements,
-                          std::uint64_t seed) {
+Questions questions_about(const scene::Scene& scene, const fem::RadiositySolution& solution,
+                          std::span<const measure::SensorPoint> points, std::size_t elements, std::uint64_t seed) {
   Questions questions;
   ask_surfaces(scene, solution.mesh, questions);
   ask_elements(scene, solution.mesh, elements, seed, questions);
-  ask_sensors(scene, questions);
+  ask_sensors(points, questions);
   return questions;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "fem/radiosity.h"
 #include "measure/measurement.h"
+#include "measure/sensor_points.h"
 #include "scene/scene.h"
 #include "validation/judged.h"
 
@@ -17,8 +19,9 @@ struct Questions {
   std::vector<validation::Judged> judged;
 };
 
-/// Every active side of every surface, every sensor point, and `elements` elements (all of them where that is not below their
+/// Every active side of every surface, the sensor points, and `elements` elements (all of them where that is not below their
 /// number), chosen by strata.
-Questions questions_about(const scene::Scene& scene, const fem::RadiositySolution& solution, std::size_t elements, std::uint64_t seed);
+Questions questions_about(const scene::Scene& scene, const fem::RadiositySolution& solution,
+                          std::span<const measure::SensorPoint> points, std::size_t elements, std::uint64_t seed);
 
 }  // namespace interflect::apps

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "apps/read_scene.h"
+#include "apps/session.h"
 #include "apps/table.h"
 #include "core/build_info.h"
 #include "core/format.h"
@@ -17,11 +19,11 @@ namespace {
 
 using fem::RadiositySolution;
 
-/// 95 %: the bound of the irradiance and 1.96 standard errors, as an error of B = E + rho H.
+/// 95 %: the bound of the irradiance and its noise, as an error of B = E + rho H.
 std::vector<Spectrum> radiosity_errors(const RadiositySolution& solution) {
   std::vector<Spectrum> errors;
   for (std::size_t i = 0; i < solution.radiosity.size(); ++i)
-    errors.push_back(solution.reflectance[i] * (solution.irradiance_error[i] + 1.96 * solution.irradiance_noise[i]));
+    errors.push_back(solution.reflectance[i] * (solution.irradiance_error[i] + normal_95 * solution.irradiance_noise[i]));
   return errors;
 }
 
@@ -86,22 +88,14 @@ results::Record form_factor_record(const RadiositySolution& solution) {
   return record;
 }
 
-results::Record::Strings lines_of(const std::vector<scene::Note>& notes) {
-  results::Record::Strings lines;
-  for (const scene::Note& note : notes) lines.push_back(note.place + ": " + note.message);
-  return lines;
-}
-
-std::string percent(double part, double whole) { return whole > 0 ? core::format("%.2f %%", 100 * part / whole) : "-"; }
-
 std::string energy_text(const SolvedScene& solved) {
   const scene::Scene& scene = solved.scene;
   const fem::EnergyBalance& e = solved.solution.energy;
   const double emitted = scene.weigh(e.emitted);
+  const auto part = [&](const Spectrum& flux) { return core::format_percent(scene.weigh(flux) / emitted); };
   return core::format("energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s, form-factor error %s, solver "
-                      "residual %.1e\n", emitted,
-                      scene.flux_unit(), percent(scene.weigh(e.absorbed), emitted).c_str(),
-                      percent(scene.weigh(e.escaped), emitted).c_str(), percent(scene.weigh(e.on_backs), emitted).c_str(), percent(scene.weigh(e.form_factor_error), emitted).c_str(),
+                      "residual %.1e\n", emitted, scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(),
+                      part(e.on_backs).c_str(), part(e.form_factor_error).c_str(),
                       emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0);
 }
 
@@ -112,13 +106,13 @@ std::string sensors_text(const SolvedScene& solved) {
   for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points))
     table.add({s.sensor, std::to_string(s.points), core::format("%.4g", s.minimum), core::format("%.5g", s.mean),
                core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity()),
-               core::format("%.2g (%s, estimated)", s.error, percent(s.error, s.mean).c_str())});
+               core::format("%.2g (%s, estimated)", s.error, core::format_percent(s.error / s.mean).c_str())});
   return "\n" + table.text();
 }
 
 }  // namespace
 
-results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common) {
+results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run) {
   const RadiositySolution& solution = solved.solution;
   const int channels = solved.scene.channel_count();
   const core::BuildInfo build = core::build_info();
@@ -130,11 +124,12 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("command", common.command_line)
       .add("scene", solved.scene.file.string())
       .add("seed", common.seed)
-      .add("threads", common.threads)
+      .add("threads", run.threads.count())
       .add("quantity", solved.scene.quantity == scene::Quantity::photometric ? "photometric" : "radiometric")
       .add("channels", solved.scene.channels)
       .add("weights", solved.scene.weights, channels)
       .add("settings", settings_record(options.settings, solution))
+      .add("forecast", forecast_record(solved.forecast))
       .add("elements", solution.mesh.size())
       .add("operator_bytes", solution.bytes)
       .add("seconds", std::move(stages))
@@ -145,18 +140,24 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("relative_error_l2", error.relative_l2)
       .add("relative_noise_l2", error.relative_noise_l2)
       .add("repairs", lines_of(solved.scene.repairs))
-      .add("warnings", lines_of(solved.scene.warnings));
+      .add("warnings", solved.warnings)
+      .add("stopped", run.stop.stop_requested())
+      .add("peak_memory_bytes", peak_memory_bytes());
   return record;
 }
 
-void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common) {
+void write_summary(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run) {
+  results::write_json(options.out / "summary.json", summary_record(solved, options, common, run));
+}
+
+void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run) {
   const RadiositySolution& s = solved.solution;
   const int channels = solved.scene.channel_count();
   results::write_vtu(options.out / "solution.vtu", s.mesh, fields_of(solved));
   results::write_surfaces_csv(options.out / "surfaces.csv",
                               results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
   results::write_sensors_csv(options.out / "sensors.csv", solved.points, solved.at_points, channels);
-  results::write_json(options.out / "summary.json", summary_record(solved, options, common));
+  write_summary(solved, options, common, run);
 #ifdef INTERFLECT_WITH_VTK
   if (options.pictures) write_field_pictures(solved, options.out);
 #endif
@@ -169,8 +170,9 @@ std::string solution_text(const SolvedScene& solved) {
                                   s.mesh.longest_edge(), core::format_bytes(s.bytes).c_str());
   text += energy_text(solved);
   text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest, s.rows.highest);
-  text += core::format("irradiance  mean %.5g %s, error about %.2f %% (L2, estimated) and noise %.2f %%\n", error.mean_irradiance,
-                       solved.scene.irradiance_unit(), 100 * error.relative_l2, 100 * error.relative_noise_l2);
+  text += core::format("irradiance  mean %.5g %s, error about %s (L2, estimated) and noise %s\n", error.mean_irradiance,
+                       solved.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
+                       core::format_percent(error.relative_noise_l2).c_str());
   text += core::format("solver      %s after %d iterations, residual %.1e\n", solvers::describe(s.solver.why).c_str(),
                        s.solver.iterations, s.solver.residual());
   text += "time        ";

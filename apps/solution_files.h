@@ -8,11 +8,13 @@
 
 namespace interflect::apps {
 
-/// What summary.json says of a run: enough to repeat it and to judge it.
-results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common);
+/// What summary.json says of a run: enough to repeat it and to judge it.  Whether it was stopped, and its peak memory, are as of
+/// now.
+results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run);
+void write_summary(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run);
 
 /// solution.vtu, surfaces.csv, sensors.csv, summary.json and the pictures, into options.out.
-void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common);
+void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run);
 
 /// The short table of a solve: elements, energy, error, sensors, time of each stage.
 std::string solution_text(const SolvedScene& solved);

@@ -2,13 +2,14 @@
 
 #include <cstdio>
 
+#include "apps/read_scene.h"
 #include "core/format.h"
 #include "core/log.h"
-#include "results/atomic_file.h"
-#include "scene/reader.h"
 
 namespace interflect::apps {
 namespace {
+
+constexpr double noticeable_on_backs = 1e-3;  ///< of the emitted flux: docs/scene.md promises a warning above it
 
 std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
   std::vector<measure::Measurement> asked;
@@ -16,32 +17,55 @@ std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
   return solved.method().answer(solved.scene, asked, run);
 }
 
-}  // namespace
-
-scene::Scene read_and_note(const std::filesystem::path& file) {
-  scene::Scene scene = scene::read_scene(file);
-  for (const scene::Note& note : scene.repairs) core::log::info(note.place + ": " + note.message);
-  for (const scene::Note& note : scene.warnings) core::log::warning(note.place + ": " + note.message);
-  return scene;
+/// What the solution shows to be odd.  Flux on black backs counts beyond the noise of the rays that found it.
+std::vector<std::string> warnings_of(const scene::Scene& scene, const fem::RadiositySolution& solution) {
+  std::vector<std::string> warnings;
+  const double emitted = scene.weigh(solution.energy.emitted), on_backs = scene.weigh(solution.energy.on_backs);
+  if (on_backs - normal_95 * scene.weigh(solution.energy.split_error) > noticeable_on_backs * emitted)
+    warnings.push_back("black backs absorb " + core::format_percent(on_backs / emitted) +
+                       " of the emitted flux: is a surface flipped?  interflect check tells which");
+  if (!solution.solver.converged())
+    warnings.push_back("the solver has not converged: " + solvers::describe(solution.solver.why));
+  return warnings;
 }
+
+}  // namespace
 
 std::string describe(const fem::Forecast& forecast) {
   return core::format("%s elements, %s, about %s", core::format_count(static_cast<unsigned long long>(forecast.elements)).c_str(),
                       core::format_bytes(forecast.bytes).c_str(), core::format_duration(forecast.seconds).c_str());
 }
 
+results::Record forecast_record(const fem::Forecast& forecast) {
+  results::Record record;
+  record.add("elements", static_cast<std::uint64_t>(forecast.elements));
+  return record.add("bytes", forecast.bytes).add("seconds", forecast.seconds);
+}
+
+ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
+  const fem::Forecast forecast = fem::forecast(read_and_note(options.scene), options.settings, run);
+  std::printf("%s\n", common.json ? results::json_text(forecast_record(forecast)).c_str() : describe(forecast).c_str());
+  return success;
+}
+
 std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run) {
   scene::Scene scene = read_and_note(options.scene);
   const fem::Forecast forecast = fem::forecast(scene, options.settings, run);
-  if (!options.forecast_only) results::prepare_output_directory(options.out);
-  if (!common.json && !common.quiet) std::printf("%s\n", describe(forecast).c_str());
+  auto folder = std::make_unique<results::OutputDirectory>(options.out);
+  if (!common.json && !common.quiet) std::printf("bounding box %s\n%s\n", box_text(scene).c_str(), describe(forecast).c_str());
   std::fflush(stdout);
-  if (options.forecast_only) return nullptr;
+  auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
   auto solution = fem::solve_radiosity(scene, options.settings, run);
-  auto points = measure::sensor_points(scene);
-  auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution), std::move(points));
+  auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution));
+  solved->folder = std::move(folder);
+  solved->points = std::move(points);
   solved->rays = raycast::make_ray_caster(options.settings.intersector, solved->scene);
   solved->at_points = answer_points(*solved, run);
+  solved->warnings = lines_of(solved->scene.warnings);
+  for (const std::string& warning : warnings_of(solved->scene, solved->solution)) {
+    core::log::warning(warning);
+    solved->warnings.push_back(warning);
+  }
   return solved;
 }
 

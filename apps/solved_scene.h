@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/commands.h"
 #include "apps/options.h"
 #include "fem/radiosity_method.h"
 #include "measure/sensor_points.h"
 #include "raycast/ray_caster.h"
+#include "results/output_directory.h"
+#include "results/record.h"
 #include "scene/scene.h"
 
 namespace interflect::apps {
@@ -16,9 +19,8 @@ namespace interflect::apps {
 ///
 /// It stays where it was made: the ray caster refers to the scene.
 struct SolvedScene {
-  SolvedScene(scene::Scene scene_read, const fem::Forecast& forecast_made, fem::RadiositySolution solution_found,
-              std::vector<measure::SensorPoint> points_asked)
-      : scene(std::move(scene_read)), forecast(forecast_made), solution(std::move(solution_found)), points(std::move(points_asked)) {}
+  SolvedScene(scene::Scene scene_read, const fem::Forecast& forecast_made, fem::RadiositySolution solution_found)
+      : scene(std::move(scene_read)), forecast(forecast_made), solution(std::move(solution_found)) {}
   SolvedScene(const SolvedScene&) = delete;
   SolvedScene& operator=(const SolvedScene&) = delete;
 
@@ -28,17 +30,20 @@ struct SolvedScene {
   std::unique_ptr<raycast::RayCaster> rays;
   std::vector<measure::SensorPoint> points;
   std::vector<Estimate> at_points;
+  std::vector<std::string> warnings;                 ///< of the reader, then of the solution
+  std::unique_ptr<results::OutputDirectory> folder;  ///< options.out
 
   fem::RadiosityMethod method() const { return {solution, *rays}; }
 };
 
-/// Reads the scene and prints what was noted about it; nothing is written yet.
-scene::Scene read_and_note(const std::filesystem::path& file);
-
 /// "5 000 elements, 0.2 GB, about 40 s"
 std::string describe(const fem::Forecast& forecast);
+results::Record forecast_record(const fem::Forecast& forecast);
 
-/// Reads, forecasts, prepares the output folder, solves, answers the sensors.  Null where only the forecast was asked for.
+/// All that a command does with --forecast: reads the scene and prints what a solve will need, which is its result.
+ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run);
+
+/// Reads, forecasts, prepares the output folder, solves, answers the sensors, and warns of what the solution shows.
 /// @throws core::InputError, core::Interrupted
 std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run);
 

@@ -1,15 +1,15 @@
 #include <cstdio>
+#include <optional>
 
 #include "apps/commands.h"
-#include "apps/pictures.h"
-#include "apps/solved_scene.h"
+#include "apps/read_scene.h"
 #include "core/error.h"
-#include "core/format.h"
+#include "core/log.h"
 #include "measure/surface_measurements.h"
 #include "montecarlo/path_tracer.h"
 #include "montecarlo/render.h"
-#include "results/atomic_file.h"
 #include "results/image_file.h"
+#include "results/output_directory.h"
 #include "results/record.h"
 #include "results/tables.h"
 
@@ -40,7 +40,8 @@ core::Image with_errors(const montecarlo::Rendering& rendering) {
   return both;
 }
 
-/// Surfaces and sensors by path tracing, in the columns that every method writes.
+/// Surfaces and sensors by path tracing, in the columns that every method writes; a stopped run writes what it has.
+/// @throws core::Interrupted  if it has nothing for some of them
 void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run& run) {
   std::vector<measure::Measurement> asked;
   std::vector<std::pair<scene::SurfaceId, scene::Side>> sides;
@@ -63,28 +64,64 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run
   results::write_sensors_csv(options.estimates / "sensors.csv", points, std::span(found).subspan(sides.size()), scene.channel_count());
 }
 
+/// What there is to tell at the end.
+struct Traced {
+  std::string camera;
+  std::uint64_t samples;  ///< a pixel
+  std::filesystem::path exr, png;
+  std::filesystem::path estimates;  ///< their folder; empty where none were written
+  bool stopped;
+};
+
+/// The folder of the estimates; empty where none were asked for, or a stop came before there were any.
+std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOptions& options, Run& run) {
+  if (options.estimates.empty()) return {};
+  try {
+    write_estimates(scene, options, run);
+  } catch (const core::Interrupted&) {
+    core::log::warning("stopped: no estimates were written");
+    return {};
+  }
+  if (run.stop.stop_requested()) core::log::warning("stopped: the estimates have fewer samples than --accuracy asks for");
+  return options.estimates;
+}
+
+void print_text(const Traced& t) {
+  std::printf("%s, %llu samples a pixel: %s and %s\n", t.camera.c_str(), static_cast<unsigned long long>(t.samples), t.exr.c_str(),
+              t.png.c_str());
+  if (!t.estimates.empty())
+    std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(), (t.estimates / "sensors.csv").c_str());
+  if (t.stopped) std::printf("stopped before all was done\n");
+}
+
+results::Record record_of(const Traced& t) {
+  results::Record record;
+  record.add("camera", t.camera).add("samples", t.samples).add("exr", t.exr.string()).add("png", t.png.string());
+  if (!t.estimates.empty()) record.add("estimates", t.estimates.string());
+  return record.add("stopped", t.stopped);
+}
+
 }  // namespace
 
 ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& run) {
   results::require_image_extension(options.image);
   const scene::Scene scene = read_and_note(options.scene);
   const scene::CameraId camera = camera_named(scene, options.camera);
-  if (options.image.has_parent_path()) results::prepare_output_directory(options.image.parent_path());
-  if (!options.estimates.empty()) results::prepare_output_directory(options.estimates);
-  const auto samples = static_cast<std::uint64_t>(options.samples);
-  const montecarlo::Rendering rendering = montecarlo::render(scene, camera, samples, run, options.intersector);
-  std::filesystem::path exr = options.image, png = options.image;
-  results::write_image(exr.replace_extension(".exr"), with_errors(rendering));
-  results::write_image(png.replace_extension(".png"), as_rgb(scene, rendering.radiance));
-  if (!options.estimates.empty() && !run.stop.stop_requested()) write_estimates(scene, options, run);
+  std::optional<results::OutputDirectory> pictures, estimates;
+  if (options.image.has_parent_path()) pictures.emplace(options.image.parent_path());
+  if (!options.estimates.empty()) estimates.emplace(options.estimates);
+  const montecarlo::Rendering rendering =
+      montecarlo::render(scene, camera, static_cast<std::uint64_t>(options.samples), run, options.intersector);
+  Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, false};
+  results::write_image(traced.exr.replace_extension(".exr"), with_errors(rendering));
+  results::write_image(traced.png.replace_extension(".png"), results::as_rgb(scene, rendering.radiance));
+  traced.estimates = estimates_written(scene, options, run);
+  traced.stopped = run.stop.stop_requested();
   if (common.json)
-    std::printf("%s\n", results::json_text(results::Record().add("camera", scene.camera(camera).name)
-                                               .add("samples", rendering.samples).add("exr", exr.string())
-                                               .add("png", png.string())).c_str());
+    std::printf("%s\n", results::json_text(record_of(traced)).c_str());
   else if (!common.quiet)
-    std::printf("%s, %llu samples a pixel: %s and %s\n", scene.camera(camera).name.c_str(),
-                static_cast<unsigned long long>(rendering.samples), exr.string().c_str(), png.string().c_str());
-  return rendering.samples < samples ? not_met : success;
+    print_text(traced);
+  return traced.stopped ? not_met : success;
 }
 
 }  // namespace interflect::apps

@@ -49,7 +49,7 @@ struct Problem {
       : K(std::vector<double>(static_cast<std::size_t>(n), 1.0)), count(static_cast<Index>(K.bytes() / 8)) {
     for (Index a = 0; a < n; ++a) {
       RandomRow random{1, static_cast<std::uint32_t>(a), 0};
-      for (Index j = a; j < n; ++j) K.add(a, j, random.next() / static_cast<double>(n), 0);
+      for (Index j = a; j < n; ++j) K.add(a, j, {random.next() / static_cast<double>(n), 0});
     }
     const std::size_t bytes = (static_cast<std::size_t>(count) * 8 + large_page - 1) / large_page * large_page;
     plain.reset(static_cast<double*>(std::aligned_alloc(large_page, bytes)));

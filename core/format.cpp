@@ -1,5 +1,7 @@
 #include "core/format.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -29,6 +31,14 @@ std::string format_duration(double seconds) {
   if (seconds < 100) return format("%.0f s", seconds);
   if (seconds < 100 * 60) return format("%.0f min", seconds / 60);
   return format("%.1f h", seconds / 3600);
+}
+
+std::string format_percent(double part) { return std::isfinite(part) ? format("%.2f %%", 100 * part) : "-"; }
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
 }
 
 std::string format_count(unsigned long long count) {

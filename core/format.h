@@ -13,6 +13,12 @@ std::string format_bytes(double bytes);
 /// "0.4 s", "38 s", "12 min", "3.5 h".
 std::string format_duration(double seconds);
 
+/// "12.34 %" of a part such as 0.1234; "-" where there is none (not a number, infinite).
+std::string format_percent(double part);
+
+/// ASCII letters in lower case, all else as it is: for extensions and names that differ in case alone.
+std::string lower_case(std::string text);
+
 /// "12 500" with thin grouping by spaces, for people; files get plain digits.
 std::string format_count(unsigned long long count);
 

@@ -11,6 +11,12 @@ Image::Image(int w, int h, std::vector<std::string> names) : width(w), height(h)
   data.assign(offset(0, h), 0.0F);
 }
 
+Spectrum Image::pixel(int x, int y) const {
+  Spectrum values;
+  for (int c = 0; c < static_cast<int>(channels.size()); ++c) values[c] = static_cast<double>(at(x, y, c));
+  return values;
+}
+
 Image side_by_side(const std::vector<Image>& images, int gap) {
   if (images.empty()) throw PreconditionError("side_by_side: at least one image expected");
   int width = -gap;

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/spectrum.h"
+
 namespace interflect::core {
 
 /// A raster of `channels` floats a pixel, row by row from the top left.
@@ -16,6 +18,8 @@ struct Image {
 
   float& at(int x, int y, int channel) { return data[offset(x, y) + static_cast<std::size_t>(channel)]; }
   float at(int x, int y, int channel) const { return data[offset(x, y) + static_cast<std::size_t>(channel)]; }
+  /// The channels of a pixel, of which there are at most Spectrum::capacity.
+  Spectrum pixel(int x, int y) const;
   std::size_t offset(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * channels.size();
   }

@@ -22,8 +22,7 @@ Progress::Style Progress::style_of_standard_error() { return isatty(STDERR_FILEN
 
 Progress::Stage::Stage(Progress& progress, std::string name, std::uint64_t total)
     : progress_(progress), name_(std::move(name)), total_(std::max<std::uint64_t>(total, 1)) {
-  const auto wait = progress.style_ == Style::lines ? Clock::duration(line_interval) : Clock::duration(first_report_after);
-  next_report_ = (start_ + wait).time_since_epoch().count();
+  next_report_ = (start_ + first_report_after).time_since_epoch().count();
 }
 
 Progress::Stage::~Stage() {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string_view>
 
 /// Counter-based random numbers: a number is a pure function of what it serves (seed, stream, index, dimension), so that
@@ -47,6 +48,9 @@ constexpr double uniform_53(std::uint32_t high, std::uint32_t low) {
 
 /// The seed of one purpose ("visibility", "pixels"), so that two rooms never share a number by accident.
 std::uint64_t derived_seed(std::uint64_t seed, std::string_view purpose);
+
+/// The key of what numbers serve, from the bits of what tells it from others: equal numbers, equal keys (0 and -0 are equal).
+std::uint64_t key_of(std::initializer_list<double> numbers);
 
 /// The numbers of one sample, dimension after dimension, 53 bits each.
 class RandomNumbers {

@@ -12,7 +12,7 @@ namespace interflect {
 /// One number per channel (a band of wavelengths, or a colour channel), in the unit of what it describes.
 ///
 /// The capacity is a constant of the build, so that a spectrum is a plain value without a heap; a scene says how many
-/// channels it uses (`Scene::channels()`), and the rest stay 0.  Arithmetic is channel by channel over the capacity.
+/// channels it uses (`Scene::channel_count()`), and the rest stay 0.  Arithmetic is channel by channel over the capacity.
 class Spectrum {
  public:
   static constexpr int capacity = INTERFLECT_SPECTRUM_CAPACITY;
@@ -70,5 +70,17 @@ class Spectrum {
 
   std::array<double, capacity> values_{};
 };
+
+/// Channel by channel; a NaN stays one, in `max` on either side.
+inline Spectrum sqrt(const Spectrum& s) {
+  return s.map([](double v) { return std::sqrt(v); });
+}
+inline Spectrum abs(const Spectrum& s) {
+  return s.map([](double v) { return std::abs(v); });
+}
+inline Spectrum max(Spectrum a, const Spectrum& b) {
+  for (int c = 0; c < Spectrum::capacity; ++c) a[c] = a[c] >= b[c] || std::isnan(a[c]) ? a[c] : b[c];
+  return a;
+}
 
 }  // namespace interflect

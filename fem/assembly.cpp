@@ -1,7 +1,6 @@
 #include "fem/assembly.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 
 namespace interflect::fem {
@@ -37,14 +36,10 @@ std::unique_ptr<DenseSymmetric> aggregated(const DenseSymmetric& fine, Run& run)
   run.threads.for_blocks(parents, 16, [&](Index begin, Index end) {
     for (Index I = begin; I < end; ++I)
       for (Index J = I; J < parents; ++J) {
-        double sum = 0.0, variance = 0.0;
+        double sum = 0.0;
         for (Index i = 4 * I; i < 4 * I + 4; ++i)
-          for (Index j = 4 * J; j < 4 * J + 4; ++j) {
-            sum += fine.entry(i, j);
-            const double error = fine.entry_error(i, j);
-            variance += error * error;
-          }
-        if (sum > 0.0) coarse->add(I, J, sum, std::sqrt(variance));
+          for (Index j = 4 * J; j < 4 * J + 4; ++j) sum += fine.entry(i, j);
+        if (sum > 0.0) coarse->add(I, J, {sum});
       }
   });
   return coarse;

@@ -10,7 +10,7 @@ PairCounts assemble(const FormFactorMethod& method, std::span<const scene::Surfa
                     Run& run);
 
 /// K of elements that each consist of four: K_IJ = sum of K_ij over the children i of I and j of J, because K is additive;
-/// standard errors are added in squares.  @param fine  children 4I .. 4I + 3
+/// without errors.  @param fine  children 4I .. 4I + 3
 std::unique_ptr<DenseSymmetric> aggregated(const DenseSymmetric& fine, Run& run);
 
 }  // namespace interflect::fem

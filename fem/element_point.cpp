@@ -2,19 +2,17 @@
 
 namespace interflect::fem {
 
-std::array<scene::SurfacePatch, 4> quarters_of(const scene::SurfacePatch& patch) {
-  const auto& p = patch.corner;
-  const auto mid = [&](std::size_t a, std::size_t b) -> Vec3 { return 0.5 * (p[a] + p[b]); };
-  const auto part = [&](std::initializer_list<Vec3> ring) {
-    return scene::make_patch(patch.surface, patch.side, std::span(ring.begin(), ring.size()));
-  };
-  if (patch.corners == 3) {
-    const Vec3 ab = mid(0, 1), bc = mid(1, 2), ca = mid(2, 0);
-    return {part({p[0], ab, ca}), part({ab, p[1], bc}), part({ca, bc, p[2]}), part({ab, bc, ca})};
-  }
-  const Vec3 ab = mid(0, 1), bc = mid(1, 2), cd = mid(2, 3), da = mid(3, 0), centre = 0.5 * (ab + cd);
-  return {part({p[0], ab, centre, da}), part({ab, p[1], bc, centre}), part({centre, bc, p[2], cd}),
-          part({da, centre, cd, p[3]})};
+ElementMap::ElementMap(const scene::SurfacePatch& patch)
+    : triangle_(patch.corners == 3),
+      corner_(patch.corner[0]),
+      along_s_(patch.corner[1] - corner_),
+      along_t_((triangle_ ? patch.corner[2] : patch.corner[3]) - corner_) {
+  if (triangle_) return;
+  twist_ = patch.corner[2] - patch.corner[1] - along_t_;
+  const Vec3 normal = along_s_.cross(along_t_), per_area = normal / (normal.norm() * patch.area);
+  weight_ = per_area.dot(normal);
+  weight_s_ = per_area.dot(along_s_.cross(twist_));
+  weight_t_ = per_area.dot(twist_.cross(along_t_));
 }
 
 }  // namespace interflect::fem

@@ -26,18 +26,7 @@ struct PointLanes {
 /// bilinear map, whose Jacobian is the weight: linear in (s, t), since on a plane the product of the bilinear terms vanishes.
 class ElementMap {
  public:
-  explicit ElementMap(const scene::SurfacePatch& patch)
-      : triangle_(patch.corners == 3),
-        corner_(patch.corner[0]),
-        along_s_(patch.corner[1] - corner_),
-        along_t_((triangle_ ? patch.corner[2] : patch.corner[3]) - corner_) {
-    if (triangle_) return;
-    twist_ = patch.corner[2] - patch.corner[1] - along_t_;
-    const Vec3 normal = along_s_.cross(along_t_), per_area = normal / (normal.norm() * patch.area);
-    weight_ = per_area.dot(normal);
-    weight_s_ = per_area.dot(along_s_.cross(twist_));
-    weight_t_ = per_area.dot(twist_.cross(along_t_));
-  }
+  explicit ElementMap(const scene::SurfacePatch& patch);
   WeightedPoint operator()(double s, double t) const {
     if (triangle_) {
       const double root = std::sqrt(s);
@@ -71,8 +60,5 @@ class ElementMap {
   Vec3 corner_, along_s_, along_t_, twist_ = Vec3::Zero();
   double weight_ = 1.0, weight_s_ = 0.0, weight_t_ = 0.0;
 };
-
-/// The four parts that the midpoints of its edges cut an element into.
-std::array<scene::SurfacePatch, 4> quarters_of(const scene::SurfacePatch& patch);
 
 }  // namespace interflect::fem

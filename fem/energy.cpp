@@ -1,8 +1,8 @@
 #include "fem/energy.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/hemisphere.h"
 #include "core/moments.h"
 #include "core/random.h"
 #include "fem/element_point.h"
@@ -34,12 +34,10 @@ raycast::Ray ray_from(const scene::SurfacePatch& patch, core::RandomNumbers& ran
   const double s = random.next(), t = random.next();
   const WeightedPoint from = ElementMap(patch)(s, t);
   weight = from.weight;
-  const double radius_squared = random.next(), angle = 2.0 * pi * random.next();
-  const Vec3 n = patch.normal(), u = n.unitOrthogonal(), v = n.cross(u);
-  const double radius = std::sqrt(radius_squared);
-  const Vec3 direction =
-      radius * std::cos(angle) * u + radius * std::sin(angle) * v + std::sqrt(1.0 - radius_squared) * n;
-  return {from.position, direction.normalized(), n};
+  const double u = random.next(), v = random.next();
+  const Vec3 normal = patch.normal();
+  const Vec3 direction = core::frame_around(normal).to_world(core::cosine_hemisphere(u, v));
+  return {from.position, direction.normalized(), normal};
 }
 
 struct Tally {
@@ -97,9 +95,7 @@ EnergyBalance energy_balance(const RadiositySolution& s, const LostRays& lost) {
   }
   energy.escaped = lost.escaped;
   energy.on_backs = lost.on_backs;
-  energy.split_error =
-      lost.escaped_error.map([](double e) { return e * e; }) + lost.on_backs_error.map([](double e) { return e * e; });
-  energy.split_error = energy.split_error.map([](double v) { return std::sqrt(v); });
+  energy.split_error = sqrt(lost.escaped_error * lost.escaped_error + lost.on_backs_error * lost.on_backs_error);
   energy.form_factor_error = unaccounted - lost.escaped - lost.on_backs;
   energy.residual = energy.emitted - energy.absorbed - unaccounted;
   return energy;

@@ -10,9 +10,10 @@ struct ErrorSources {
   const DenseSymmetric& K;                 ///< on the fine mesh; its errors are those of its entries
   std::span<const double> row_sum_before;  ///< sum_j F_ij before any closure was restored
   double quadrature_tolerance = 0;         ///< relative, of entries
+  bool both_converged = true;              ///< the solves at either size: else nothing bounds the discretisation error
 };
 
-/// Fills irradiance_error, irradiance_noise and field_error of a solution whose other fields are there.
+/// Fills irradiance_error, irradiance_noise, shared_noise and field_error of a solution whose other fields are there.
 ///
 /// Discretisation.  D = G^-1 K (B_h - P B_2h): what the iterated irradiance of each element owes to halving the elements,
 /// with the same K for both, so that no noise of visibility is in it.  Where errors fall as h^p, |D| is (2^p - 1) times the
@@ -23,12 +24,17 @@ struct ErrorSources {
 ///
 /// plus  neighbours: what radiosity varies by inside elements next to i, which halving does not show (neighbour_error.h);
 /// plus  quadrature: tolerance times H, over 1 - mean rho for all bounces;
-/// plus  closure, in closed scenes: |1 - row sum_i| beyond twice its standard error, times the mean radiosity;
+/// plus  closure, in closed scenes: |1 - row sum_i| beyond twice its standard error, times the mean radiosity, and the same of the
+///       mean row sum times rho / (1 - rho), for later bounces: rows that all lack d make H lack d B / (1 - rho);
 /// plus  solver: residual times max B / (1 - max rho).
 ///
-/// Noise.  var_i = sum_j (error_ij B_j / A_i)² is that of one bounce off B; later bounces see means over many elements, so
-/// that they add the same to all:  (rho / (1 - rho))² sum_k (A_k / A)² var_k  with the mean rho.  An element that sees little
-/// but one other has more.
+/// Noise.  With the standard errors e_ij of K's entries, one bounce off B makes  var_i = sum_j (e_ij B_j / A_i)²  of its own in
+/// each element.  Later bounces see means over many elements, and add one and the same deviation to all,
+///
+///   shared² = (rho / (1 - rho))² Var(mean H),   Var(mean H) = sum_{i<j} e_ij² (B_i + B_j)² / A² = sum_ij e_ij² (B_j² + B_i B_j) / A²
+///
+/// with the mean rho and the total area A; K_ij = K_ji is one random number that two elements share.  irradiance_noise² is var +
+/// shared².  An element that sees little but one other has more.
 ///
 /// Field.  Constants differ from the iterated B_1 by its variation inside the element.  For a linear field the root mean
 /// square over an element is 1/sqrt(3) of that between the four children of a parent, for triangles and parallelograms alike;

@@ -17,10 +17,36 @@ constexpr double default_elements = 2500, most_elements_to_mesh = 200'000;
 /// K and its errors (4 n² and at most 2 n²), K of the coarse mesh (a sixteenth of that), and what each element carries.
 double predicted_bytes(double elements) { return 6.4 * elements * elements + 4000.0 * elements; }
 double elements_in(double bytes) { return std::sqrt(bytes / 6.4 + 312.5 * 312.5) - 312.5; }
+/// The memory that so many elements need, as the option takes it: "12GB".
+std::string memory_option(double elements) { return core::format("%.0fGB", std::ceil(1e-9 * predicted_bytes(elements))); }
+
+/// Elements are made as quarters of elements of twice the size.
+double predicted_elements(const scene::Scene& scene, double size) {
+  return 4.0 * mesh::predicted_elements(scene, 2.0 * size);
+}
+double size_for(const scene::Scene& scene, double elements) { return 0.5 * mesh::edge_for(scene, elements / 4.0); }
+
+/// What to do about elements that need more memory than allowed: the smallest size, of two digits, that is predicted to fit
+/// with a fifth to spare, which is what predictions are worth.
+std::string way_out(const scene::Scene& scene, const RadiositySettings& settings) {
+  const double room = elements_in(settings.max_memory) / 1.2, size = size_for(scene, room);
+  if (predicted_elements(scene, size) > 1.1 * room)
+    return core::format("no --element-size fits, since its facets alone make %.0f; --max-memory %s or more would do",
+                        predicted_elements(scene, size), memory_option(1.2 * predicted_elements(scene, size)).c_str());
+  return core::format("--element-size %g or more would fit", size);
+}
+
+void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings) {
+  const double bytes = predicted_bytes(elements);
+  if (bytes <= settings.max_memory) return;
+  throw core::InputError(core::format("elements of %g m are about %.0f, which need %s, more than the %s allowed: %s",
+                                      element_size_of(scene, settings), elements, core::format_bytes(bytes).c_str(),
+                                      core::format_bytes(settings.max_memory).c_str(), way_out(scene, settings).c_str()));
+}
 
 class Discard final : public ExchangeSink {
  public:
-  void add(Index, Index, double, double) override {}
+  void add(Index, Index, const ExchangeEntry&) override {}
 };
 
 /// Seconds per pair on one thread: blocks of random rows and columns of the very mesh.
@@ -49,25 +75,22 @@ double seconds_per_pair(const scene::Scene& scene, const RadiositySettings& sett
 }  // namespace
 
 double element_size_of(const scene::Scene& scene, const RadiositySettings& settings) {
-  return settings.element_size > 0 ? settings.element_size : mesh::edge_for(scene, default_elements);
+  if (settings.element_size > 0) return settings.element_size;
+  return std::min(size_for(scene, default_elements),
+                  mesh::edge_for_area(mesh::active_area(scene), default_elements));
 }
 
-void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings) {
-  const double bytes = predicted_bytes(elements);
-  if (bytes <= settings.max_memory) return;
-  throw core::InputError(core::format(
-      "elements of %g m are about %.0f, which need %s, more than the %s allowed: --element-size %g or more would fit",
-      element_size_of(scene, settings), elements, core::format_bytes(bytes).c_str(),
-      core::format_bytes(settings.max_memory).c_str(), mesh::edge_for(scene, 0.9 * elements_in(settings.max_memory))));
+mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings) {
+  const double size = element_size_of(scene, settings), about = predicted_elements(scene, size);
+  if (about > most_elements_to_mesh) require_memory(scene, about, settings);
+  mesh::ElementMesh mesh = mesh::quartered(mesh::uniform(scene, 2.0 * size));
+  require_memory(scene, static_cast<double>(mesh.size()), settings);
+  return mesh;
 }
 
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
-  const double size = element_size_of(scene, settings), about = 4.0 * mesh::predicted_elements(scene, 2.0 * size);
-  if (about > most_elements_to_mesh) require_memory(scene, about, settings);
-  const mesh::ElementMesh mesh =
-      mesh::quartered(mesh::uniform(scene, 2.0 * size));  // costs little beside what is forecast
+  const mesh::ElementMesh mesh = elements_of(scene, settings);  // costs little beside what is forecast
   const auto elements = static_cast<double>(mesh.size());
-  require_memory(scene, elements, settings);
   if (elements == 0) return {};
   const double pairs = 0.5 * elements * elements;
   const double assembly = pairs * seconds_per_pair(scene, settings, mesh, run) / run.threads.count();

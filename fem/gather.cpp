@@ -13,7 +13,7 @@ namespace interflect::fem {
 namespace {
 
 constexpr int deepest_part = 4;         // 4^4 parts of one element at most
-constexpr int most_rays_per_side = 32;  // of a part
+constexpr int most_rays_per_side = 64;  // of a part: 4 096 rays
 constexpr double far = 200.0;           // radii beyond which one node serves for an element: 2e-4 of it
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace interflect::fem {
 namespace {
 
 constexpr double near = 1.5;  ///< in sums of radii between centroids
+constexpr double spot = 1.0 / 6;  ///< of an element: smaller ones are not resolved by its siblings' means
 constexpr Index rows_at_once = 32;
 const double concave_edge = 1 + std::sqrt(2.0);  ///< deviation at an edge over that of a linear field
 
@@ -30,17 +31,24 @@ std::vector<Ball> balls_of(const mesh::ElementMesh& mesh) {
   return balls;
 }
 
-/// The centroid of an element as it is seen from a point: weighted by what its parts send there.
-Vec3 seen_centroid(const Ball& from, const scene::SurfacePatch& element, const Vec3& otherwise) {
+/// What a point sees of an element.
+struct Seen {
+  Vec3 centroid;    ///< weighted by what its parts send there
+  double fraction;  ///< of its area, as if evenly: 1/16 where one part is all that counts
+};
+
+Seen seen_of(const scene::SurfacePatch& element, const Ball& from, const Vec3& otherwise) {
   Vec3 sum = Vec3::Zero();
-  double weight = 0;
+  double weight = 0, squares = 0;
   for (const scene::SurfacePatch& quarter : quarters_of(element))
     for (const scene::SurfacePatch& part : quarters_of(quarter)) {
       const double factor = point_to_polygon(from.centre, from.normal, part.ring());
       sum += factor * part.centroid();
       weight += factor;
+      squares += factor * factor;
     }
-  return weight > 0 ? Vec3(sum / weight) : otherwise;
+  if (!(weight > 0)) return {otherwise, 1};
+  return {sum / weight, weight * weight / (16 * squares)};
 }
 
 }  // namespace
@@ -77,16 +85,18 @@ std::vector<Spectrum> neighbour_errors(const RadiositySolution& solution, const 
   run.threads.for_blocks(K.size(), rows_at_once, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const Ball& here = balls[static_cast<std::size_t>(i)];
-      Spectrum sum;
+      Spectrum linear, unresolved;
       for (std::size_t j = 0; j < balls.size(); ++j) {
         const double reach = near * (here.radius + balls[j].radius);
         if ((here.centre - balls[j].centre).squaredNorm() >= reach * reach) continue;
         const double form_factor = K.entry(i, static_cast<Index>(j)) / K.gram()[static_cast<std::size_t>(i)];
         if (form_factor == 0 || solution.reflectance[j].is_zero()) continue;
-        const Vec3 seen = seen_centroid(here, solution.mesh.patches()[j], balls[j].centre);
-        sum += form_factor * (solution.reflectance[j] * linear_deviation(solution, j, seen));
+        const Seen seen = seen_of(solution.mesh.patches()[j], here, balls[j].centre);
+        linear += form_factor * (solution.reflectance[j] * linear_deviation(solution, j, seen.centroid));
+        unresolved += form_factor * std::max(0.0, 1 - seen.fraction / spot) *
+                      (solution.reflectance[j] * solution.irradiance[j]);
       }
-      errors[static_cast<std::size_t>(i)] = sum.map([](double e) { return concave_edge * std::abs(e); });
+      errors[static_cast<std::size_t>(i)] = concave_edge * abs(linear) + unresolved;
     }
   });
   return errors;

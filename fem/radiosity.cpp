@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "fem/assembly.h"
 #include "fem/closure.h"
 #include "fem/columns.h"
 #include "fem/energy.h"
 #include "fem/error_estimate.h"
-#include "mesh/uniform.h"
 
 namespace interflect::fem {
 
@@ -87,19 +87,22 @@ void set_materials(RadiositySolution& s, const scene::Scene& scene) {
 }
 
 /// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
-void solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySettings& settings, int channels,
+/// @return  whether both solves converged
+bool solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySettings& settings, int channels,
                 Run& run) {
   const solvers::ColumnMatrix e = to_columns(s.exitance, channels), rho = to_columns(s.reflectance, channels);
   const solvers::ColumnMatrix B = solve_system(K, e, rho, settings, run, s.solver);
-  solvers::SolverReport unreported;
+  solvers::SolverReport of_coarse;
   const auto coarse = aggregated(K, run);
   s.coarse_radiosity =
-      to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, unreported)));
+      to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, of_coarse)));
+  run.throw_if_stopped("solve");  // what there is has no error yet, and is worth nothing without one
   solvers::ColumnMatrix H(B.rows(), B.cols());
   K.apply(B, H, run);
   divide_by(H, K.gram());
   s.radiosity = to_spectra(B);
   s.irradiance = to_spectra(H);
+  return s.solver.converged() && of_coarse.converged();
 }
 
 /// Row sums made 1 where that was asked for; returns the relative change of K.
@@ -117,9 +120,8 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   const int channels = scene.channel_count();
   std::vector<StageCost> stages;
   StageClock timed(stages);
-  RadiositySolution s(timed("mesh", [&] { return mesh::quartered(mesh::uniform(scene, 2.0 * size)); }), size);
+  RadiositySolution s(timed("mesh", [&] { return elements_of(scene, settings); }), size);
   if (s.mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
-  require_memory(scene, static_cast<double>(s.mesh.size()), settings);
   set_materials(s, scene);
   const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
   DenseSymmetric K(areas_of(s.mesh));
@@ -137,13 +139,17 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
     s.row_sum = settings.restore_closure ? K.row_sums(run) : row_sum_before;
   });
   s.rows = summary_of(s.row_sum, K.gram());
-  timed("solve", [&] { solve_both(s, K, settings, channels, run); });
+  const bool converged = timed("solve", [&] { return solve_both(s, K, settings, channels, run); });
   timed("error estimate", [&] {
-    estimate_errors(s, {K, row_sum_before, settings.quadrature_tolerance}, channels, run);
+    estimate_errors(s, {K, row_sum_before, settings.quadrature_tolerance, converged}, channels, run);
   });
   timed("energy balance", [&] {
     const LostRays lost = cast_lost_rays(scene, s.mesh.patches(), s.radiosity, *rays, run);
-    s.closed = s.closed && lost.lost == 0;
+    if (s.closed && lost.lost > 0) {
+      s.closed = false;
+      if (settings.restore_closure)
+        core::log::warning("closure was restored, but a few rays do leave the scene: its openings are small, not absent");
+    }
     s.energy = energy_balance(s, lost);
   });
   s.bytes = K.bytes();

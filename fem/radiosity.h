@@ -13,7 +13,7 @@
 namespace interflect::fem {
 
 struct RadiositySettings {
-  double element_size = 0;  ///< longest edge [m]; 0: for about 2 500 elements
+  double element_size = 0;  ///< longest edge [m]; 0: see element_size_of
   std::string form_factors = "gauss-lambert";
   std::string solver = "gauss-seidel";
   std::string intersector = "embree";
@@ -24,18 +24,20 @@ struct RadiositySettings {
   double max_memory = 4e9;       ///< [bytes]
 };
 
-/// The element size asked for, or the default one [m].
+/// The element size asked for, or the default one [m]: that of about 2 500 elements, or, where a mesh of more facets brings
+/// its own, the one that resolves the scene's area into as many.
 double element_size_of(const scene::Scene& scene, const RadiositySettings& settings);
+
+/// The scene cut into elements of that size, each four the quarters of one of twice the size.
+/// @throws core::InputError  where they need more memory than `max_memory`, saying which element size would fit
+mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings);
 
 /// What a solve will need, said before it starts.
 struct Forecast {
   double elements, bytes, seconds;
 };
-/// @throws core::InputError  above `max_memory`, saying which element size would fit
+/// @throws core::InputError  as `elements_of`
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run);
-
-/// @throws core::InputError  as `forecast`, where this many elements need more than `max_memory`
-void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings);
 
 struct StageCost {
   std::string stage;
@@ -45,12 +47,13 @@ struct StageCost {
 /// Where the flux goes [W | lm], per channel:  emitted = absorbed + escaped + on_backs + form_factor_error + residual.
 struct EnergyBalance {
   Spectrum emitted, absorbed;
-  Spectrum escaped,
-      on_backs;          ///< what leaves the elements and reaches none, by rays: through openings, and on black backs
+  /// What leaves the elements and reaches none, by rays: through openings, and on black backs.
+  Spectrum escaped, on_backs;
   Spectrum split_error;  ///< standard error of escaped + on_backs
-  Spectrum
-      form_factor_error;  ///< sum_i (1 - row sum_i) A_i B_i - escaped - on_backs: what row sums and rays disagree about
-  Spectrum residual;      ///< emitted - absorbed - sum_i (1 - row sum_i) A_i B_i: solver error alone
+  /// sum_i (1 - row sum_i) A_i B_i - escaped - on_backs: what row sums and rays disagree about.
+  Spectrum form_factor_error;
+  /// emitted - absorbed - sum_i (1 - row sum_i) A_i B_i: solver error alone.
+  Spectrum residual;
 };
 
 struct RowSums {
@@ -65,15 +68,15 @@ struct RadiositySolution {
   mesh::ElementMesh mesh;
   double element_size;
   std::vector<Spectrum> exitance, reflectance, radiosity, irradiance;
-  std::vector<Spectrum>
-      irradiance_error;  ///< estimated bound on |bias| of the element's mean H (discretisation, quadrature, solver)
-  std::vector<Spectrum> irradiance_noise;  ///< standard error of H from sampled visibility
-  std::vector<Spectrum>
-      field_error;  ///< |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h
-  std::vector<Spectrum>
-      coarse_radiosity;         ///< the solution at twice the element size, on this mesh (its parent's value)
-  std::vector<double> row_sum;  ///< sum_j F_ij
-  bool closed = false;          ///< no ray that left an element was lost
+  /// Estimated bound on |bias| of the element's mean H: discretisation, quadrature, solver, closure.
+  std::vector<Spectrum> irradiance_error;
+  std::vector<Spectrum> irradiance_noise;  ///< standard error of H from sampled visibility, all in all
+  Spectrum shared_noise;  ///< the part of it that is one and the same deviation in all elements; the rest is independent
+  /// |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h.
+  std::vector<Spectrum> field_error;
+  std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size: its parent's value
+  std::vector<double> row_sum;             ///< sum_j F_ij
+  bool closed = false;                     ///< no ray that left an element was lost
   solvers::SolverReport solver;
   PairCounts pairs;
   RowSums rows;
@@ -81,6 +84,11 @@ struct RadiositySolution {
   EnergyBalance energy;
   std::vector<StageCost> stages;
   double bytes = 0;  ///< memory of the operator
+
+  /// Variance of an element's H that is its own, independent of the other elements'.
+  Spectrum own_variance(std::size_t element) const {
+    return irradiance_noise[element] * irradiance_noise[element] - shared_noise * shared_noise;
+  }
 };
 
 /// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their

@@ -13,13 +13,6 @@ namespace interflect::fem {
 
 namespace {
 
-Spectrum magnitude(const Spectrum& s) {
-  return s.map([](double v) { return std::abs(v); });
-}
-Spectrum root(const Spectrum& s) {
-  return s.map([](double v) { return std::sqrt(v); });
-}
-
 /// Area of the part of an element that lies within a convex patch of the same plane [m²].
 double shared_area(const scene::SurfacePatch& element, const scene::SurfacePatch& patch) {
   const Vec3 normal = patch.normal();
@@ -31,6 +24,20 @@ double shared_area(const scene::SurfacePatch& element, const scene::SurfacePatch
     left = geometry::clip(left.ring(), {inwards, inwards.dot(from)});
   }
   return left.corners > 0 ? geometry::vector_area(left.ring()).norm() : 0.0;
+}
+
+/// The part of a patch that lies in one element.
+struct Tile {
+  std::size_t element;
+  double area;  ///< [m²]
+};
+
+/// The random numbers of a question are keyed by what it asks, not by where in a list it stands.
+std::uint64_t key_of(const measure::PointIrradiance& at) {
+  return core::key_of({at.position.x(), at.position.y(), at.position.z(), at.normal.x(), at.normal.y(), at.normal.z()});
+}
+std::uint64_t key_of(const measure::PixelRadiance& pixel) {
+  return core::key_of({static_cast<double>(pixel.camera.value), static_cast<double>(pixel.x), static_cast<double>(pixel.y)});
 }
 
 /// Answers one list, measurement by measurement: everything here is read only.
@@ -45,19 +52,15 @@ class Answers {
     }
   }
 
-  Estimate operator()(const measure::PatchIrradiance& asked, std::uint64_t) const { return of_patch(asked.patch); }
-  Estimate operator()(const measure::Flux& asked, std::uint64_t) const;
-  Estimate operator()(const measure::PointIrradiance& asked, std::uint64_t key) const;
-  Estimate operator()(const measure::PixelRadiance& asked, std::uint64_t key) const;
+  Estimate operator()(const measure::PatchIrradiance& asked) const;
+  Estimate operator()(const measure::Flux& asked) const;
+  Estimate operator()(const measure::PointIrradiance& asked) const;
+  Estimate operator()(const measure::PixelRadiance& asked) const;
 
  private:
-  Estimate of_element(std::size_t i) const {
-    return {s_.irradiance[i], s_.irradiance_noise[i], s_.irradiance_error[i], Claim::estimated, 0};
-  }
   std::optional<std::size_t> same_element(const scene::SurfacePatch& patch) const;
-  Estimate of_patch(const scene::SurfacePatch& patch) const;
-  Estimate of_tiles(const scene::SurfacePatch& patch) const;
-  const mesh::ElementMesh::Part* whole_part(std::span<const scene::SurfacePatch> patches) const;
+  void add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& tiles) const;
+  Estimate arriving_on(std::vector<Tile> tiles, bool plane) const;
 
   const scene::Scene& scene_;
   const RadiositySolution& s_;
@@ -79,16 +82,11 @@ std::optional<std::size_t> Answers::same_element(const scene::SurfacePatch& patc
   return found->element.value;
 }
 
-Estimate Answers::of_patch(const scene::SurfacePatch& patch) const {
-  const auto element = same_element(patch);
-  return element ? of_element(*element) : of_tiles(patch);
-}
-
-/// The mean over the elements that tile the patch.  Of an element that is cut, constants know no more than the mean: its
-/// variation is added to the bound, by the cut part's share.
-Estimate Answers::of_tiles(const scene::SurfacePatch& patch) const {
-  Spectrum flux, noise_squared, error;
-  double covered = 0.0;
+void Answers::add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& tiles) const {
+  if (const auto element = same_element(patch)) {
+    tiles.push_back({*element, patch.area});
+    return;
+  }
   const double plane = 1e-6 * std::sqrt(patch.area);
   const Vec3 normal = patch.normal();
   for (const mesh::ElementMesh::Part& part : s_.mesh.parts()) {
@@ -97,72 +95,106 @@ Estimate Answers::of_tiles(const scene::SurfacePatch& patch) const {
       const scene::SurfacePatch& element = s_.mesh.patches()[i];
       if (std::abs(normal.dot(element.corner[0] - patch.corner[0])) > plane || element.normal().dot(normal) < 0.999)
         continue;
-      const double area = shared_area(element, patch);
-      if (area <= 0.0) continue;
-      covered += area;
-      flux += area * s_.irradiance[i];
-      noise_squared += area * area * (s_.irradiance_noise[i] * s_.irradiance_noise[i]);
-      error += area * s_.irradiance_error[i];
-      if (area < (1 - 1e-9) * element.area) error += area * irradiance_variation(s_, i);
+      if (const double area = shared_area(element, patch); area > 0.0) tiles.push_back({i, area});
     }
   }
-  if (covered <= 0.0) return {};  // no element lies there: nothing is claimed
-  return {flux / covered, root(noise_squared) / covered, error / covered, Claim::estimated, 0};
 }
 
-/// The part of the mesh that the patches cover: all of one side of one surface, told by their area.
-const mesh::ElementMesh::Part* Answers::whole_part(std::span<const scene::SurfacePatch> patches) const {
+/// The flux that arrives on elements and parts of elements: sum of area times irradiance, elements in their order.
+///
+/// Of an element that is cut, constants know no more than the mean: its variation is added to the bound, by the cut part's
+/// share.  Noise: what elements have of their own is added in squares (twice, where elements of the region may see each other,
+/// so that they share random numbers: (a + b)² <= 2 a² + 2 b²), what all have in common as it is.
+Estimate Answers::arriving_on(std::vector<Tile> tiles, bool plane) const {
+  std::sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) { return a.element < b.element; });
+  Estimate flux{Spectrum(), Spectrum(), Spectrum(), Claim::estimated, 0};
+  Spectrum own_variance;
   double covered = 0.0;
+  for (std::size_t k = 0; k < tiles.size();) {
+    const std::size_t i = tiles[k].element;
+    double area = 0.0;
+    for (; k < tiles.size() && tiles[k].element == i; ++k) area += tiles[k].area;
+    covered += area;
+    flux.value += area * s_.irradiance[i];
+    flux.error_bound += area * s_.irradiance_error[i];
+    if (area < (1 - 1e-9) * s_.mesh.patches()[i].area) flux.error_bound += area * irradiance_variation(s_, i);
+    own_variance += area * area * s_.own_variance(i);
+  }
+  const Spectrum shared = covered * s_.shared_noise;
+  flux.standard_error = sqrt((plane ? 1.0 : 2.0) * own_variance + shared * shared);
+  return flux;
+}
+
+/// Mean over what tiles the patch; nothing is claimed where no element lies.
+Estimate Answers::operator()(const measure::PatchIrradiance& asked) const {
+  std::vector<Tile> tiles;
+  add_tiles(asked.patch, tiles);
+  double covered = 0.0;
+  for (const Tile& tile : tiles) covered += tile.area;
+  if (covered <= 0.0) return {};
+  return scaled(arriving_on(std::move(tiles), true), 1.0 / covered);
+}
+
+/// All elements of that side of that surface, if the patches cover it (told by their area).
+std::vector<Tile> whole_side(const mesh::ElementMesh& mesh, std::span<const scene::SurfacePatch> patches) {
+  std::vector<Tile> tiles;
+  double covered = 0.0, area = 0.0;
   for (const scene::SurfacePatch& patch : patches) {
-    if (patch.surface != patches.front().surface || patch.side != patches.front().side) return nullptr;
+    if (patch.surface != patches.front().surface || patch.side != patches.front().side) return {};
     covered += patch.area;
   }
-  for (const mesh::ElementMesh::Part& part : s_.mesh.parts()) {
-    if (patches.empty() || part.surface != patches.front().surface || part.side != patches.front().side) continue;
-    double area = 0.0;
-    for (std::size_t i = part.first; i < part.first + part.count; ++i) area += s_.mesh.patches()[i].area;
-    return std::abs(area - covered) <= 1e-6 * area ? &part : nullptr;
+  for (const mesh::ElementMesh::Part& part : mesh.parts())
+    if (part.surface == patches.front().surface && part.side == patches.front().side)
+      for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+        tiles.push_back({i, mesh.patches()[i].area});
+        area += tiles.back().area;
+      }
+  return std::abs(area - covered) <= 1e-6 * area ? tiles : std::vector<Tile>();
+}
+
+bool face_one_way(std::span<const scene::SurfacePatch> patches) {
+  return std::all_of(patches.begin(), patches.end(), [&](const scene::SurfacePatch& patch) {
+    return patch.normal().dot(patches.front().normal()) > 1 - 1e-9;
+  });
+}
+
+Estimate Answers::operator()(const measure::Flux& asked) const {
+  if (asked.through.empty()) return {Spectrum(), Spectrum(), Spectrum(), Claim::guaranteed, 0};
+  std::vector<Tile> tiles = whole_side(s_.mesh, asked.through);
+  bool all_found = !tiles.empty();
+  if (!all_found) {
+    all_found = true;
+    for (const scene::SurfacePatch& patch : asked.through) {
+      const std::size_t before = tiles.size();
+      add_tiles(patch, tiles);
+      all_found = all_found && tiles.size() > before;
+    }
   }
-  return nullptr;
+  if (!all_found) return {};  // no element lies on a part of it: nothing is claimed
+  return arriving_on(std::move(tiles), face_one_way(asked.through));
 }
 
-/// Noise is added in squares: elements of one plane share no sampled pair.
-Estimate Answers::operator()(const measure::Flux& asked, std::uint64_t) const {
-  Estimate sum{Spectrum(), Spectrum(), Spectrum(), Claim::estimated, 0};
-  const auto add = [&](double area, const Estimate& part) {
-    sum.value += area * part.value;
-    sum.standard_error += area * area * (part.standard_error * part.standard_error);
-    sum.error_bound += area * part.error_bound;
-    if (part.claim == Claim::none) sum.claim = Claim::none;
-  };
-  if (const auto* part = whole_part(asked.through))
-    for (std::size_t i = part->first; i < part->first + part->count; ++i) add(s_.mesh.patches()[i].area, of_element(i));
-  else
-    for (const scene::SurfacePatch& patch : asked.through) add(patch.area, of_patch(patch));
-  sum.standard_error = root(sum.standard_error);
-  return sum;
-}
-
-Estimate Answers::operator()(const measure::PointIrradiance& asked, std::uint64_t key) const {
-  const Gathered gathered = gather_(asked, key, importance_);
-  Spectrum sizes, from_elements, from_noise;
+Estimate Answers::operator()(const measure::PointIrradiance& asked) const {
+  const Gathered gathered = gather_(asked, key_of(asked), importance_);
+  Spectrum sizes, from_elements, own_variance, shared;
   for (const GatheredElement& g : gathered.elements) {
     const auto j = static_cast<std::size_t>(g.element);
-    sizes += g.factor * magnitude(halving_[j]);
-    const Spectrum noise = s_.reflectance[j] * s_.irradiance_noise[j];
-    from_noise += g.factor * g.factor * (noise * noise);
+    sizes += g.factor * abs(halving_[j]);
+    const Spectrum rho = s_.reflectance[j];
+    own_variance += g.factor * g.factor * (rho * rho * s_.own_variance(j));
+    shared += g.factor * (rho * s_.shared_noise);
     from_elements += g.factor * (s_.reflectance[j] * s_.irradiance_error[j]);
   }
-  const Spectrum halving = magnitude(irradiance(gathered, halving_)), noise = irradiance_noise(gathered, s_.radiosity);
+  const Spectrum halving = abs(irradiance(gathered, halving_)), noise = irradiance_noise(gathered, s_.radiosity);
   Spectrum error = from_elements;  // the elements' own bounds, reflected: what the gather inherits
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(halving[c], 0.05 * sizes[c]);
-  return {irradiance(gathered, s_.radiosity), root(noise * noise + from_noise), error, Claim::estimated, gathered.rays};
+  return {irradiance(gathered, s_.radiosity), sqrt(noise * noise + own_variance + shared * shared), error, Claim::estimated, gathered.rays};
 }
 
-Estimate Answers::operator()(const measure::PixelRadiance& asked, std::uint64_t key) const {
+Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
   constexpr int side = 4;
   const scene::Camera& camera = scene_.camera(asked.camera);
-  core::RandomNumbers random(core::derived_seed(seed_, "pixels"), 0, key);
+  core::RandomNumbers random(core::derived_seed(seed_, "pixels"), 0, key_of(asked));
   core::Moments radiance;
   Spectrum error;
   for (int k = 0; k < side * side; ++k) {
@@ -192,7 +224,7 @@ std::vector<Estimate> RadiosityMethod::answer(const scene::Scene& scene, std::sp
     run.throw_if_stopped("radiosity answers");
     for (Index k = begin; k < end; ++k) {
       const auto m = static_cast<std::size_t>(k);
-      estimates[m] = std::visit([&](const auto& question) { return answers(question, m); }, asked[m]);
+      estimates[m] = std::visit([&](const auto& question) { return answers(question); }, asked[m]);
     }
     stage.advance(static_cast<std::uint64_t>(end - begin));
   });

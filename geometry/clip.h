@@ -25,10 +25,10 @@ struct ConvexRing {
 inline ConvexRing clip(std::span<const Vec3> ring, const Plane& plane) {
   assert(ring.size() < static_cast<std::size_t>(ConvexRing::capacity));
   ConvexRing kept;
-  const auto keep =
-      [&](const Vec3& x) {  // rounding may make a ring in the plane weave through it: never beyond the array
-        if (kept.corners < ConvexRing::capacity) kept.corner[static_cast<std::size_t>(kept.corners++)] = x;
-      };
+  // Rounding may make a ring in the plane weave through it: never beyond the array.
+  const auto keep = [&](const Vec3& x) {
+    if (kept.corners < ConvexRing::capacity) kept.corner[static_cast<std::size_t>(kept.corners++)] = x;
+  };
   if (ring.empty()) return kept;
   bool inner = false;  // a corner strictly in front
   const Vec3* from = &ring.back();

@@ -16,6 +16,7 @@ class AxisShadow {
   }
   double x(const Vec3& r) const { return r[first_]; }
   double y(const Vec3& r) const { return r[second_]; }
+  Vec2 operator()(const Vec3& r) const { return {x(r), y(r)}; }
 
  private:
   int dropped_ = 2, first_ = 0, second_ = 1;

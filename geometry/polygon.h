@@ -37,13 +37,13 @@ Vec3 vector_area(std::span<const Vec3> ring);
 /// Area of the outer ring less that of the holes [m²].
 double area(const PlanarPolygon& polygon);
 
-/// Plane through the outer ring's centroid along its vector area.  Throws Defect without an area.
+/// The plane through the mean of a ring's corners, across its vector area.  Throws Defect without an area.
 Plane plane_of(std::span<const Vec3> ring);
 
 /// Largest distance of a corner (holes too) from `plane_of(outer)`, divided by the polygon's diameter.
 double relative_planarity_error(const PlanarPolygon& polygon);
 
-/// Corners relative to which a polygon counts as planar: `relative_planarity_error` at most this.
+/// A polygon counts as planar if its `relative_planarity_error` is at most this.
 inline constexpr double planarity_tolerance = 1e-6;
 
 /// Throws Defect in one sentence if the polygon has fewer than three corners, a coordinate that is not finite, no area, is not

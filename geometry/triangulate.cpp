@@ -6,6 +6,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "geometry/plane_coordinates.h"
+#include "geometry/point_in_ring.h"
 
 namespace interflect::geometry {
 namespace {
@@ -56,19 +57,9 @@ void mark_depths(Triangulation& triangulation) {
   }
 }
 
-/// Whether the middle of a triangle is enclosed by the ring, by the parity of the edges on its right: edges that are there twice
-/// do not count.
-bool is_inside(std::span<const Vec3> ring, const AxisShadow& shadow, const Face& face) {
-  const Triangulation::Point middle =
-      CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
-  bool inside = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec3 &r = ring[k], &s = ring[(k + 1) % ring.size()];
-    const Triangulation::Point a(shadow.x(r), shadow.y(r)), b(shadow.x(s), shadow.y(s));
-    if ((a.y() > middle.y()) == (b.y() > middle.y())) continue;
-    inside ^= CGAL::orientation(a, b, middle) == (b.y() > a.y() ? CGAL::LEFT_TURN : CGAL::RIGHT_TURN);
-  }
-  return inside;
+Vec2 middle_of(const Face& face) {
+  const auto middle = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
+  return {middle.x(), middle.y()};
 }
 
 }  // namespace
@@ -99,9 +90,11 @@ std::vector<TriangleCorners> triangulate_face(std::span<const Vec3> ring) {
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
     throw Defect("the face crosses itself");
   }
+  std::vector<Vec2> outline;
+  for (const Vec3& r : ring) outline.push_back(shadow(r));
   std::vector<TriangleCorners> triangles;
   for (const Face face : triangulation.finite_face_handles())
-    if (is_inside(ring, shadow, face)) triangles.push_back(corners_of(face));
+    if (encloses(outline, middle_of(face))) triangles.push_back(corners_of(face));
   if (triangles.empty()) throw Defect("the face has no area");
   return triangles;
 }

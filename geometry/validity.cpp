@@ -7,6 +7,7 @@
 #include "core/format.h"
 #include "geometry/box_tree.h"
 #include "geometry/plane_coordinates.h"
+#include "geometry/point_in_ring.h"
 #include "geometry/polygon.h"
 
 namespace interflect::geometry {
@@ -27,16 +28,17 @@ struct Edge {
 
 /// All rings in their plane, for exact questions.
 struct Shadow {
-  std::vector<std::vector<Point>> rings;
+  std::vector<std::vector<Vec2>> rings;
   std::vector<Edge> edges;
 
   explicit Shadow(const PlanarPolygon& polygon) {
     const AxisShadow shadow(vector_area(polygon.outer));
     const auto add = [&](const Ring& ring) {
-      std::vector<Point> points;
-      for (const Vec3& r : ring) points.emplace_back(shadow.x(r), shadow.y(r));
+      std::vector<Vec2> points;
+      for (const Vec3& r : ring) points.push_back(shadow(r));
+      const auto point = [&](std::size_t k) { return Point(points[k].x(), points[k].y()); };
       for (std::size_t k = 0; k < points.size(); ++k)
-        edges.push_back({rings.size(), k, points[k], points[(k + 1) % points.size()]});
+        edges.push_back({rings.size(), k, point(k), point((k + 1) % points.size())});
       rings.push_back(std::move(points));
     };
     add(polygon.outer);
@@ -95,17 +97,6 @@ void require_no_crossing(const Shadow& shadow) {
                                 name_of(e.ring).c_str(), e.corner, f.corner));
     throw Defect(core::format("%s touches or crosses %s", name_of(e.ring).c_str(), name_of(f.ring).c_str()));
   }
-}
-
-/// Whether a ring encloses a point that is on none of its edges: crossings of the ray towards +x, counted exactly.
-bool encloses(const std::vector<Point>& ring, const Point& p) {
-  bool inside = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Point &a = ring[k], &b = ring[(k + 1) % ring.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    inside ^= CGAL::orientation(a, b, p) == (b.y() > a.y() ? CGAL::LEFT_TURN : CGAL::RIGHT_TURN);
-  }
-  return inside;
 }
 
 void require_nesting(const Shadow& shadow) {

@@ -20,7 +20,7 @@ struct PatchIrradiance {
 /// Irradiance at a point for the hemisphere of `normal` [W/m² | lx].  The point has no body: it blocks nothing.
 struct PointIrradiance {
   Vec3 position, normal;
-  std::optional<scene::SurfaceId> on;  ///< the point lies on this surface: its own plane is ignored
+  std::optional<scene::SurfaceId> on;  ///< the point lies on this surface, to rounding: its own plane is ignored
 };
 
 /// Flux that arrives on patches [W | lm].

@@ -1,6 +1,5 @@
 #include "measure/sensor_points.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -11,11 +10,6 @@ namespace {
 constexpr double on_surface_tolerance = 1e-9;  ///< of the scene's diagonal
 constexpr double parallel_tolerance = 1e-6;    ///< of 1 - |cos| between the normals
 
-double spacing_of_en12464(double longer, double shorter) {
-  const double d = longer >= 2 * shorter ? shorter : longer;
-  return std::min(10.0, 0.2 * std::pow(5.0, std::log10(d)));
-}
-
 /// Is `x`, of a facet's plane, inside the facet or on its edge?
 bool covers(const scene::Facet& facet, const Vec3& x, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -25,13 +19,16 @@ bool covers(const scene::Facet& facet, const Vec3& x, double tolerance) {
   return true;
 }
 
-std::optional<scene::SurfaceId> surface_under(const scene::Scene& scene, const Vec3& x, const Vec3& normal, double tolerance) {
+/// The point as it is asked: moved onto the plane of the facet that it lies on, if it lies on one, so that no method starts
+/// below the surface because a file gives coordinates to nine digits.
+PointIrradiance placed(const scene::Scene& scene, const Vec3& x, const Vec3& normal, double tolerance) {
   for (const scene::Facet& facet : scene.facets) {
-    if (std::abs(facet.normal.dot(x - facet.corner[0])) > tolerance) continue;
+    const double height = facet.normal.dot(x - facet.corner[0]);
+    if (std::abs(height) > tolerance) continue;
     if (1 - std::abs(facet.normal.dot(normal)) > parallel_tolerance) continue;
-    if (covers(facet, x, tolerance)) return facet.surface;
+    if (covers(facet, x, tolerance)) return {x - height * facet.normal, normal, facet.surface};
   }
-  return std::nullopt;
+  return {x, normal, std::nullopt};
 }
 
 }  // namespace
@@ -41,21 +38,13 @@ std::vector<Vec3> grid_points(const scene::SensorGrid& grid) {
   const double full_u = grid.u.norm(), full_v = grid.v.norm();
   const double length_u = full_u - 2 * border, length_v = full_v - 2 * border;
   if (!(length_u > 0) || !(length_v > 0)) throw core::InputError("sensor grid", "exclude_border leaves nothing of it");
-  Eigen::Array2i counts;
-  if (const auto* given = std::get_if<Eigen::Array2i>(&grid.step)) {
-    counts = *given;
-  } else {
-    double p = std::get<double>(grid.step);
-    if (std::isnan(p)) p = spacing_of_en12464(std::max(length_u, length_v), std::min(length_u, length_v));
-    const auto cells = [p](double length) { return std::max(1, static_cast<int>(std::lround(length / p))); };
-    counts = {cells(length_u), cells(length_v)};
-  }
+  const auto [along_u, along_v] = scene::cell_counts(grid);
   std::vector<Vec3> points;
-  points.reserve(static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]));
-  for (int j = 0; j < counts[1]; ++j)
-    for (int i = 0; i < counts[0]; ++i)
-      points.push_back(grid.origin + grid.u * ((border + (i + 0.5) * length_u / counts[0]) / full_u) +
-                       grid.v * ((border + (j + 0.5) * length_v / counts[1]) / full_v));
+  points.reserve(static_cast<std::size_t>(along_u * along_v));
+  for (std::int64_t j = 0; j < along_v; ++j)
+    for (std::int64_t i = 0; i < along_u; ++i)
+      points.push_back(grid.origin + grid.u * ((border + (i + 0.5) * length_u / along_u) / full_u) +
+                       grid.v * ((border + (j + 0.5) * length_v / along_v) / full_v));
   return points;
 }
 
@@ -67,7 +56,7 @@ std::vector<SensorPoint> sensor_points(const scene::Scene& scene) {
     const std::vector<Vec3> positions = grid != nullptr ? grid_points(*grid) : std::get<std::vector<Vec3>>(sensor.where);
     int index = 0;
     for (const Vec3& x : positions)
-      points.push_back({sensor.name, index++, {x, sensor.normal, surface_under(scene, x, sensor.normal, tolerance)}});
+      points.push_back({sensor.name, index++, placed(scene, x, sensor.normal, tolerance)});
   }
   return points;
 }

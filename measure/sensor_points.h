@@ -15,7 +15,7 @@ struct SensorPoint {
 };
 
 /// Every point of every sensor, in the order of the file.  A point on a surface (within 1e-9 of the scene's diagonal, its
-/// normal along the surface's on either side) is asked on that surface's side.
+/// normal along the surface's on either side) is moved onto it and asked on that side.
 std::vector<SensorPoint> sensor_points(const scene::Scene& scene);
 
 /// Points at the centres of the grid's cells, along u first.  Spacing by EN 12464-1, 4.4: p = 0.2 * 5^(log10 d) m, at most

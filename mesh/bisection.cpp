@@ -3,6 +3,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <queue>
@@ -93,6 +94,24 @@ double squared_length(const TriangleMesh& mesh, Edge edge) {
       .squaredNorm();
 }
 
+double longest_edge(const scene::Facet& facet) {
+  const auto& [a, b, c] = facet.corner;
+  return std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+}
+
+/// Whether a facet is so thin that the parts it would be cut into come near the rounding of its coordinates.  Bisection
+/// makes no angle below half of the smallest given one [Rosenberg, Stenger 1975], so that heights fall no faster than
+/// edges do: to about height * max_edge / longest.  (A facet thicker than max_edge is no needle, however small that
+/// is.)
+bool is_unresolved_needle(const scene::Facet& facet, double max_edge) {
+  constexpr double roundings = 32;  // of midpoints of midpoints: 4 are enough on needles 13 edges long, see the test
+  double coordinate = 0;
+  for (const Vec3& x : facet.corner) coordinate = std::max(coordinate, x.cwiseAbs().maxCoeff());
+  const double longest = longest_edge(facet), height = 2 * facet.area / longest;
+  return longest > max_edge && height < max_edge &&
+         height * (max_edge / longest) <= roundings * std::numeric_limits<double>::epsilon() * coordinate;
+}
+
 void bisect_longest(TriangleMesh& mesh, double max_edge) {
   struct Candidate {
     double squared_length;
@@ -134,7 +153,9 @@ double count_of(std::array<double, 3> squared, double enough) {
 
 geometry::IndexedTriangles bisected(std::span<const scene::Facet> facets, double max_edge) {
   if (!(max_edge > 0)) throw core::PreconditionError("bisected: the longest edge must be positive");
-  TriangleMesh mesh = connected(facets);
+  std::vector<scene::Facet> cut, whole;
+  for (const scene::Facet& facet : facets) (is_unresolved_needle(facet, max_edge) ? whole : cut).push_back(facet);
+  TriangleMesh mesh = connected(cut);
   bisect_longest(mesh, max_edge);
   geometry::IndexedTriangles result;
   for (const auto vertex : mesh.vertices()) result.vertices.push_back(from_openmesh(mesh.point(vertex)));
@@ -144,12 +165,20 @@ geometry::IndexedTriangles bisected(std::span<const scene::Facet> facets, double
     for (const auto vertex : mesh.fv_range(face)) triangle[k++] = static_cast<std::uint32_t>(vertex.idx());
     result.triangles.push_back(triangle);
   }
+  for (const scene::Facet& facet : whole) {
+    const auto first = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.insert(result.vertices.end(), facet.corner.begin(), facet.corner.end());
+    result.triangles.push_back({first, first + 1, first + 2});
+  }
   return result;
 }
 
 double bisected_count(const scene::Facet& facet, double max_edge) {
   const auto squared = [&](std::size_t k) { return (facet.corner[(k + 1) % 3] - facet.corner[k]).squaredNorm(); };
-  return count_of({squared(0), squared(1), squared(2)}, max_edge * max_edge * (1 + 1e-12));
+  const double enough = max_edge * max_edge * (1 + 1e-12);
+  if (is_unresolved_needle(facet, max_edge)) return 1;
+  if (!std::isfinite(squared(0) / enough + squared(1) / enough)) return std::numeric_limits<double>::infinity();
+  return count_of({squared(0), squared(1), squared(2)}, enough);
 }
 
 }  // namespace interflect::mesh

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/format.h"
 
 namespace interflect::mesh {
 namespace {
@@ -58,6 +59,13 @@ Vec3 position_at(const SurfacePatch& p, const ElementPoint& at) {
   return c[0] + at.u * (c[1] - c[0]) + at.v * (c[3] - c[0]) + at.u * at.v * (c[2] - c[3] - c[1] + c[0]);
 }
 
+void require_area(const SurfacePatch& patch) {
+  const Vec3& x = patch.corner[0];
+  if (!(patch.area > 0))
+    throw core::InputError(core::format(
+        "the element at (%.10g, %.10g, %.10g) has no area: its coordinates do not resolve it", x.x(), x.y(), x.z()));
+}
+
 }  // namespace
 
 ElementMesh::ElementMesh(std::vector<SurfacePatch> patches) : patches_(std::move(patches)) {
@@ -65,6 +73,7 @@ ElementMesh::ElementMesh(std::vector<SurfacePatch> patches) : patches_(std::move
   std::vector<geometry::Box> boxes(patches_.size());
   for (std::uint32_t i = 0; i < patches_.size(); ++i) {
     const SurfacePatch& patch = patches_[i];
+    require_area(patch);
     boxes[i] = geometry::box_of(patch.ring());
     for (std::size_t k = 0; k < patch.corners; ++k)
       longest_edge_ = std::max(longest_edge_, (patch.corner[(k + 1) % patch.corners] - patch.corner[k]).norm());

@@ -35,6 +35,7 @@ class ElementMesh {
   };
 
   /// @param patches  grouped by (surface, side), as described above
+  /// @throws core::InputError  where an element has no area, in one line with its place
   explicit ElementMesh(std::vector<scene::SurfacePatch> patches);
 
   Index size() const { return static_cast<Index>(patches_.size()); }

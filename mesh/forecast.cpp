@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "mesh/bisection.h"
+#include "mesh/narrow_places.h"
 #include "mesh/quad_grid.h"
 #include "mesh/uniform.h"
 
@@ -13,9 +15,13 @@ constexpr double refined_triangle_area = 0.205;
 
 double predicted_on_front(const scene::Scene& scene, scene::SurfaceId id, double max_edge) {
   const scene::Surface& surface = scene.surface(id);
-  if (const auto grid = quad_grid(surface, max_edge))
-    return static_cast<double>(grid->nu) * static_cast<double>(grid->nv);
-  if (surface.outline) return surface.facets + scene.area(id) / (refined_triangle_area * max_edge * max_edge);
+  if (const auto cells = quad_grid_cells(surface, max_edge)) return *cells;
+  if (surface.outline) {
+    const double each = refined_triangle_area * max_edge * max_edge;
+    const double narrow = triangles_of_narrow_places(*surface.outline, each);
+    // Where there is room; and what corners need at least, as many as facets, or narrow places.
+    return scene.area(id) / each + std::max<double>(surface.facets, narrow);
+  }
   double count = 0;
   for (const scene::Facet& facet : scene.facets_of(id)) count += bisected_count(facet, max_edge);
   return count;
@@ -35,6 +41,19 @@ double predicted_elements(const scene::Scene& scene, double max_edge) {
   for (const scene::SurfaceId id : scene.surface_ids())
     count += predicted_on_front(scene, id, max_edge) * (scene.material(id).active(scene::Side::back) ? 2 : 1);
   return count;
+}
+
+double edge_for_area(double area, double elements) {
+  if (!(area > 0) || !(elements > 0)) throw core::PreconditionError("edge_for_area: positive numbers expected");
+  return rounded(std::sqrt(area / (refined_triangle_area * elements)));
+}
+
+double active_area(const scene::Scene& scene) {
+  double area = 0;
+  for (const scene::SurfaceId id : scene.surface_ids())
+    for (const scene::Side side : {scene::Side::front, scene::Side::back})
+      if (scene.material(id).active(side)) area += scene.area(id);
+  return area;
 }
 
 double edge_for(const scene::Scene& scene, double elements) {

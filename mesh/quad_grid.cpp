@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace interflect::mesh {
 namespace {
 
@@ -18,8 +20,20 @@ bool clearly_convex(const geometry::Ring& ring) {
 }
 
 /// Cells for a side, with room for the rounding of a length that is a multiple of the edge.
-std::uint32_t cells(double length, double max_edge) {
-  return static_cast<std::uint32_t>(std::max(1.0, std::ceil(length / max_edge * (1 - 1e-12))));
+double cells(double length, double max_edge) { return std::max(1.0, std::ceil(length / max_edge * (1 - 1e-12))); }
+
+/// Cells along the sides 0-1 and 1-2, as doubles: no integer holds what a slip in an element size asks for.
+struct Cells {
+  double u, v;
+};
+
+std::optional<Cells> cells_of(const scene::Surface& surface, double max_edge) {
+  if (!surface.outline || surface.outline->outer.size() != 4 || !surface.outline->holes.empty()) return std::nullopt;
+  const geometry::Ring& ring = surface.outline->outer;
+  if (!clearly_convex(ring)) return std::nullopt;
+  const double along_u = std::max((ring[1] - ring[0]).norm(), (ring[2] - ring[3]).norm());
+  const double along_v = std::max((ring[2] - ring[1]).norm(), (ring[3] - ring[0]).norm());
+  return Cells{cells(along_u, max_edge), cells(along_v, max_edge)};
 }
 
 }  // namespace
@@ -34,12 +48,17 @@ Vec3 QuadGrid::point(std::uint32_t i, std::uint32_t j) const {
 }
 
 std::optional<QuadGrid> quad_grid(const scene::Surface& surface, double max_edge) {
-  if (!surface.outline || surface.outline->outer.size() != 4 || !surface.outline->holes.empty()) return std::nullopt;
+  const auto count = cells_of(surface, max_edge);
+  if (!count) return std::nullopt;
+  if (!(count->u * count->v <= 0x1p31)) throw core::PreconditionError("quad_grid: more than 2^31 cells");
   const geometry::Ring& ring = surface.outline->outer;
-  if (!clearly_convex(ring)) return std::nullopt;
-  const double along_u = std::max((ring[1] - ring[0]).norm(), (ring[2] - ring[3]).norm());
-  const double along_v = std::max((ring[2] - ring[1]).norm(), (ring[3] - ring[0]).norm());
-  return QuadGrid{{ring[0], ring[1], ring[2], ring[3]}, cells(along_u, max_edge), cells(along_v, max_edge)};
+  return QuadGrid{
+      {ring[0], ring[1], ring[2], ring[3]}, static_cast<std::uint32_t>(count->u), static_cast<std::uint32_t>(count->v)};
+}
+
+std::optional<double> quad_grid_cells(const scene::Surface& surface, double max_edge) {
+  const auto count = cells_of(surface, max_edge);
+  return count ? std::optional(count->u * count->v) : std::nullopt;
 }
 
 }  // namespace interflect::mesh

@@ -18,6 +18,10 @@ struct QuadGrid {
 
 /// The grid of a surface that is one planar quad without holes and with no corner near 0 or 180 degrees; counts such
 /// that the longer of two opposite sides is cut into edges of at most `max_edge` [m].  Nothing for other surfaces.
+/// @throws core::PreconditionError  above 2^31 cells
 std::optional<QuadGrid> quad_grid(const scene::Surface& surface, double max_edge);
+
+/// How many cells that grid has, or would have: any number, infinity too.  Nothing where there is none.
+std::optional<double> quad_grid_cells(const scene::Surface& surface, double max_edge);
 
 }  // namespace interflect::mesh

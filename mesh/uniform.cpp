@@ -10,6 +10,8 @@
 namespace interflect::mesh {
 namespace {
 
+constexpr double most_elements = 0x1p31;
+
 using scene::Side;
 using scene::SurfaceId;
 using scene::SurfacePatch;
@@ -37,6 +39,20 @@ std::vector<SurfacePatch> triangle_elements(SurfaceId id, const geometry::Indexe
   return elements;
 }
 
+/// Every element, and every quarter of it, must have an area for its coordinates: far from the origin those of a needle
+/// round onto a line.
+void require_resolved(const scene::Surface& surface, std::span<const SurfacePatch> elements) {
+  for (const SurfacePatch& element : elements) {
+    const Vec3 whole = geometry::vector_area(element.ring()), x = element.corner[0];
+    for (const SurfacePatch& part : quarters_of(element))
+      if (!(geometry::vector_area(part.ring()).dot(whole) > 0))
+        throw core::InputError(
+            "surface '" + surface.name + "'",
+            core::format("too thin for its coordinates at (%.10g, %.10g, %.10g): an element cut into four has no area",
+                         x.x(), x.y(), x.z()));
+  }
+}
+
 std::vector<SurfacePatch> front_elements(const scene::Scene& scene, SurfaceId id, double max_edge) {
   const scene::Surface& surface = scene.surface(id);
   if (const auto grid = quad_grid(surface, max_edge)) return grid_elements(id, *grid);
@@ -51,31 +67,18 @@ SurfacePatch turned(SurfacePatch patch) {
   return patch;
 }
 
-/// The four parts of an element, part k < 3 (k < 4 of a quad) holding its corner k.
-std::array<SurfacePatch, 4> quarters(const SurfacePatch& p) {
-  const auto part = [&](std::initializer_list<Vec3> ring) {
-    return make_patch(p.surface, p.side, std::span(ring.begin(), ring.size()));
-  };
-  const auto& c = p.corner;
-  const auto middle = [&](std::size_t i, std::size_t j) -> Vec3 { return 0.5 * (c[i] + c[j]); };
-  const Vec3 m01 = middle(0, 1), m12 = middle(1, 2);
-  if (p.corners == 3) {
-    const Vec3 m20 = middle(2, 0);
-    return {part({c[0], m01, m20}), part({m01, c[1], m12}), part({m20, m12, c[2]}), part({m12, m20, m01})};
-  }
-  const Vec3 m23 = middle(2, 3), m30 = middle(3, 0), centre = 0.5 * (m01 + m23);
-  return {part({c[0], m01, centre, m30}), part({m01, c[1], m12, centre}), part({centre, m12, c[2], m23}),
-          part({m30, centre, m23, c[3]})};
-}
-
 }  // namespace
 
 ElementMesh uniform(const scene::Scene& scene, double max_edge) {
   if (!(max_edge > 0) || !std::isfinite(max_edge))
     throw core::InputError("element size", core::format("a positive length expected, not %g m", max_edge));
+  if (const double count = predicted_elements(scene, max_edge); !(count <= most_elements))
+    throw core::InputError("element size",
+                           core::format("%g m makes %.1e elements, at most 2^31 expected", max_edge, count));
   std::vector<SurfacePatch> patches;
   for (const SurfaceId id : scene.surface_ids()) {
     const std::vector<SurfacePatch> front = front_elements(scene, id, max_edge);
+    require_resolved(scene.surface(id), front);
     patches.insert(patches.end(), front.begin(), front.end());
     if (scene.material(id).active(Side::back))
       for (const SurfacePatch& patch : front) patches.push_back(turned(patch));
@@ -87,7 +90,7 @@ ElementMesh quartered(const ElementMesh& mesh) {
   std::vector<SurfacePatch> patches;
   patches.reserve(4 * mesh.patches().size());
   for (const SurfacePatch& patch : mesh.patches())
-    for (const SurfacePatch& part : quarters(patch)) patches.push_back(part);
+    for (const SurfacePatch& part : quarters_of(patch)) patches.push_back(part);
   return ElementMesh(std::move(patches));
 }
 

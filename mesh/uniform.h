@@ -4,19 +4,28 @@
 
 namespace interflect::mesh {
 
-/// Every surface cut until no edge is longer than `max_edge` [m].
+/// Every surface cut until no edge is longer than `max_edge` [m] (save in needles that rounding forbids to cut:
+/// bisection.h), into elements that can be cut into four.
 ///
 /// A surface that is one planar quad becomes a grid of quads; another planar polygon is meshed by Delaunay refinement; facets of
 /// mesh files are bisected at their longest edge, with their neighbours, so that the surface stays conforming [Rivara 1984].
+/// @throws core::InputError  in one line where max_edge is no positive length, where it makes more than 2^31 elements, and
+///                           where an element is too thin for its coordinates, naming its surface and place
 ElementMesh uniform(const scene::Scene& scene, double max_edge);
 
 /// Every element cut into four, at the midpoints of its edges: children 4i .. 4i+3 of element i, in order.
 ElementMesh quartered(const ElementMesh& mesh);
 
-/// About how many elements `uniform` makes, without making them: for forecasts.
+/// About how many elements `uniform` makes, or would make, without making them: for forecasts.  Any number, infinity too.
 double predicted_elements(const scene::Scene& scene, double max_edge);
 
 /// Edge length for about `elements` elements, to two digits [m].
 double edge_for(const scene::Scene& scene, double elements);
+
+/// Edge length with which this area alone, however it is cut up already, would be about `elements` triangles, to two digits [m].
+double edge_for_area(double area, double elements);
+
+/// Area of all sides that light can leave [m²].
+double active_area(const scene::Scene& scene);
 
 }  // namespace interflect::mesh

@@ -16,7 +16,7 @@ double balanced(double pdf_area, double G) { return 1 / (1 + pi * pdf_area / G);
 }  // namespace
 
 PathEstimator::PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster)
-    : caster_(caster), emitters_(scene) {
+    : scene_(scene), caster_(caster), emitters_(scene) {
   optics_.reserve(2 * scene.surfaces.size());
   for (const scene::SurfaceId id : scene.surface_ids())
     for (const scene::Side side : {scene::Side::front, scene::Side::back})

@@ -28,6 +28,7 @@ struct Receiver {
 /// materials are black.
 class PathEstimator {
  public:
+  /// Both must outlive it.
   PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster);
 
   /// Irradiance H at a place [W/m² | lx].  Uses the dimensions of `numbers` from `block` on, three blocks a vertex.
@@ -36,6 +37,7 @@ class PathEstimator {
   /// Radiance L that comes to a point in free space along -direction, (E + rho H) / pi of what is seen there.
   Spectrum radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers, std::uint32_t block) const;
 
+  const scene::Scene& scene() const { return scene_; }
   const Emitters& emitters() const { return emitters_; }
 
   /// What one vertex of a path can add to an irradiance at most: the largest exitance by each of the two techniques.
@@ -51,6 +53,7 @@ class PathEstimator {
   Spectrum from_emitters(const Receiver& at, double pick, double u, double v) const;
   Spectrum from_hit(const Receiver& at, const Vec3& direction, double cos_x, const scene::SurfacePoint& hit) const;
 
+  const scene::Scene& scene_;
   const raycast::RayCaster& caster_;
   Emitters emitters_;
   std::vector<Optics> optics_;  ///< [2 * surface + (side is back)]

@@ -1,8 +1,11 @@
 #include "montecarlo/path_tracer.h"
 
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
 #include "montecarlo/sampling.h"
@@ -26,14 +29,9 @@ std::vector<MeasurementSampler> samplers_of(const scene::Scene& scene, std::span
   return samplers;
 }
 
-std::vector<std::uint64_t> sample_counts(const PathTracerSettings& settings, const scene::Scene& scene,
-                                         std::span<const MeasurementSampler> measurements, const PathEstimator& paths,
-                                         Run& run) {
-  if (settings.samples > 0) return std::vector<std::uint64_t>(measurements.size(), settings.samples);
-  const std::uint64_t fewest = std::min(fewest_samples, settings.max_samples);
-  return plan_samples(scene, measurements, paths,
-                      {settings.target, settings.target_floor, fewest, settings.max_samples}, run)
-      .counts;
+SamplingTarget target_of(const PathTracerSettings& settings, const scene::Scene& scene) {
+  return {settings.target, settings.target * settings.target_floor * mean_irradiance_scale(scene),
+          std::min(fewest_samples, settings.max_samples), settings.max_samples};
 }
 
 void warn_of_bugs(const Tally& tally, std::size_t measurement, std::uint64_t seed) {
@@ -45,18 +43,49 @@ void warn_of_bugs(const Tally& tally, std::size_t measurement, std::uint64_t see
                      static_cast<unsigned long long>(seed), static_cast<unsigned long long>(tally.first_not_finite)));
 }
 
+double weighed_standard_error(const scene::Scene& scene, const Estimate& e) {
+  return std::isfinite(e.weighed_standard_error) ? e.weighed_standard_error : scene.weigh(e.standard_error);
+}
+
+/// One line where measurements ended at the cap and not at their target.
+void warn_of_cap(const scene::Scene& scene, const SamplingTarget& target,
+                 std::span<const MeasurementSampler> measurements, std::span<const Estimate> found) {
+  std::size_t stopped = 0;
+  double worst = 1;  // standard error over that which was asked for
+  for (std::size_t m = 0; m < found.size(); ++m) {
+    const double wanted = target.standard_error(scene.weigh(found[m].value), measurements[m].scale());
+    const double reached = weighed_standard_error(scene, found[m]);
+    if (found[m].samples < target.most || reached <= wanted) continue;
+    ++stopped;
+    worst = std::max(worst, reached / wanted);
+  }
+  if (stopped > 0)
+    core::log::warning(
+        core::format("path tracer: %zu of %zu measurements stopped at %llu samples, the worst at %.2g %% where %.2g %% "
+                     "was asked for",
+                     stopped, found.size(), static_cast<unsigned long long>(target.most), 100 * worst * target.relative,
+                     100 * target.relative));
+}
+
 }  // namespace
 
 std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                          Run& run) const {
+  return answer(scene, asked, run, *raycast::make_ray_caster(settings_.intersector, scene));
+}
+
+std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                                         Run& run, const raycast::RayCaster& caster) const {
   require_valid(settings_);
   const std::vector<MeasurementSampler> measurements = samplers_of(scene, asked);
-  const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
-  const PathEstimator paths(scene, *caster);
+  const PathEstimator paths(scene, caster);
   if (paths.emitters().empty())
     return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
 
-  const std::vector<std::uint64_t> counts = sample_counts(settings_, scene, measurements, paths, run);
+  const SamplingTarget target = target_of(settings_, scene);
+  const std::vector<std::uint64_t> counts = settings_.samples > 0
+                                                ? std::vector<std::uint64_t>(asked.size(), settings_.samples)
+                                                : plan_samples(measurements, paths, target, run).counts;
   const std::uint64_t seed = core::derived_seed(run.seed, "path tracer");
   const std::vector<Tally> tallies = sample_all(measurements, counts, paths, seed, run);
   std::vector<Estimate> estimates;
@@ -65,12 +94,14 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
     warn_of_bugs(tallies[m], m, seed);
     estimates.push_back(tallies[m].estimate(measurements[m].scale() * paths.largest_score()));
   }
+  if (settings_.samples == 0) warn_of_cap(scene, target, measurements, estimates);
   return estimates;
 }
 
-double PathTracer::forecast(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const {
+PathTracer::Trial PathTracer::trial(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                                    Run& run) const {
   require_valid(settings_);
-  if (asked.empty()) return 0;
+  if (asked.empty()) return {};
   constexpr std::size_t trials = 64;
   std::vector<measure::Measurement> tried;  // evenly spread over the list
   for (std::size_t i = 0; i < std::min(trials, asked.size()); ++i)
@@ -78,19 +109,28 @@ double PathTracer::forecast(const scene::Scene& scene, std::span<const measure::
   const std::vector<MeasurementSampler> measurements = samplers_of(scene, tried);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const PathEstimator paths(scene, *caster);
-  if (paths.emitters().empty()) return 0;
+  if (paths.emitters().empty()) return {};
 
-  // With a number of samples given the trial is the pilot of a target that asks for no more than that.
-  const double target = settings_.samples > 0 ? 1.0 : settings_.target;
+  SamplingTarget target = target_of(settings_, scene);
+  if (settings_.samples > 0) target.absolute = std::numeric_limits<double>::infinity();  // first pilots, for the speed
   const auto start = std::chrono::steady_clock::now();
-  const SamplingPlan plan = plan_samples(scene, measurements, paths,
-                                         {target, settings_.target_floor, fewest_samples, settings_.max_samples}, run);
+  const SamplingPlan plan = plan_samples(measurements, paths, target, run);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const std::uint64_t samples = settings_.samples > 0
-                                    ? settings_.samples * tried.size()
-                                    : std::accumulate(plan.counts.begin(), plan.counts.end(), plan.spent);
-  const double part = static_cast<double>(tried.size()) / static_cast<double>(asked.size());
-  return elapsed.count() * static_cast<double>(samples) / static_cast<double>(plan.spent) / part;
+  const double planned = std::accumulate(plan.counts.begin(), plan.counts.end(), 0.0);
+  const auto spent = static_cast<double>(plan.spent), all = static_cast<double>(asked.size());
+  const double per_tried = all / static_cast<double>(tried.size()), speed = elapsed.count() / spent;
+  if (settings_.samples > 0) return {static_cast<double>(settings_.samples) * all, 0, speed};
+  return {planned * per_tried, spent * per_tried, speed};
+}
+
+double PathTracer::forecast_samples(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                                    Run& run) const {
+  return trial(scene, asked, run).samples;
+}
+
+double PathTracer::forecast(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const {
+  const Trial t = trial(scene, asked, run);
+  return (t.samples + t.pilots) * t.seconds_per_sample;
 }
 
 }  // namespace interflect::montecarlo

@@ -12,10 +12,10 @@
 namespace interflect::montecarlo {
 
 struct PathTracerSettings {
-  std::uint64_t samples = 0;   ///< per measurement; 0: as many as `target` asks for
-  double target = 0.01;        ///< relative standard error, per measurement, of its weighted value
-  double target_floor = 1e-3;  ///< ... or absolute: this part of the scene's mean irradiance, so that dark places end
-  std::uint64_t max_samples = 1u << 20;
+  std::uint64_t samples = 0;  ///< per measurement; 0: as many as `target` asks for
+  double target = 0.01;       ///< relative standard error, per measurement, of its weighted value
+  double target_floor = 0.1;  ///< ... or relative to this part of the scene's mean irradiance, so that dark places end
+  std::uint64_t max_samples = 1u << 26;  ///< per measurement, by a target: those that it ends are warned of
   std::string intersector = "embree";
 };
 
@@ -23,13 +23,13 @@ struct PathTracerSettings {
 /// importance sampling (balance heuristic, Veach and Guibas 1995), Russian roulette without a depth limit.  Unbiased.
 ///
 /// With a target, a pilot of 1024 samples (and a second of n / 8 where it asks for n > 8192) says how many are needed,
-/// at least 4096, and is thrown away (Kirk and Arvo 1991): the answer stays unbiased.  Nearly all measurements reach the
-/// target. Sample k of measurement m is keyed by (seed, m, k): same bits for any number of threads.
+/// at least 4096, and is thrown away (Kirk and Arvo 1991): the answer stays unbiased.  Nearly all measurements reach
+/// the target.  Sample k of measurement m is keyed by (seed, m, k): same bits for any number of threads.
 ///
-/// Standard errors are those of independent paths.  A measurement whose every sample scored zero while something emits
-/// has the standard error 3 w / n instead of 0 (rule of three; w: twice the largest exitance, in the measurement's
-/// unit), so that "nothing found" is never told as "nothing there".  A scene without emitters is exactly dark: standard
-/// error 0, no samples.
+/// Standard errors are those of independent paths, of each channel and of the scene's weighted value.  A measurement
+/// whose every sample scored zero while something emits has the standard error 3 w / n instead of 0 (rule of three; w:
+/// twice the largest exitance, in the measurement's unit), so that "nothing found" is never told as "nothing there".  A
+/// scene without emitters is exactly dark: standard error 0, no samples.
 class PathTracer final : public measure::Method {
  public:
   explicit PathTracer(PathTracerSettings settings = {}) : settings_(std::move(settings)) {}
@@ -41,11 +41,22 @@ class PathTracer final : public measure::Method {
   /// @throws core::InputError   for a measurement that cannot be taken, or settings out of range
   std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                Run& run) const override;
+  /// The same with a ray caster of the scene that is there already.
+  std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run,
+                               const raycast::RayCaster& caster) const;
 
-  /// Seconds that `answer` will take, from a short trial; within a factor of two or so.
+  /// Samples behind all answers together, from a trial of 64 measurements at most, evenly spread over the list.
+  double forecast_samples(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const;
+  /// Seconds that `answer` will take, pilots and all, at the speed of that trial; within a factor of two or so.
   double forecast(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const;
 
  private:
+  struct Trial {
+    double samples = 0, pilots = 0;  ///< of all measurements
+    double seconds_per_sample = 0;
+  };
+  Trial trial(const scene::Scene& scene, std::span<const measure::Measurement> asked, Run& run) const;
+
   PathTracerSettings settings_;
 };
 

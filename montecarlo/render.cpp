@@ -32,8 +32,9 @@ class Film {
         for (std::uint64_t k = first; k < end; ++k) {
           core::RandomNumbers numbers(seed_, p, k);
           const auto width = static_cast<std::uint32_t>(camera_.width);
-          tallies_[p].add(
-              pixel_sample(camera_, static_cast<int>(p % width), static_cast<int>(p / width), paths_, numbers), k);
+          const Spectrum sample =
+              pixel_sample(camera_, static_cast<int>(p % width), static_cast<int>(p / width), paths_, numbers);
+          tallies_[p].add(sample, paths_.scene().weigh(sample), k);
         }
       stage.advance(static_cast<std::uint64_t>(past - begin) * (end - first));
     });
@@ -76,11 +77,15 @@ class Film {
 
 Rendering render(const scene::Scene& scene, scene::CameraId id, std::uint64_t samples, Run& run,
                  const std::string& intersector) {
+  return render(scene, id, samples, run, *raycast::make_ray_caster(intersector, scene));
+}
+
+Rendering render(const scene::Scene& scene, scene::CameraId id, std::uint64_t samples, Run& run,
+                 const raycast::RayCaster& caster) {
   if (id.value >= scene.cameras.size()) throw core::InputError("render", "a camera of the scene expected");
   if (samples == 0) throw core::InputError("render", "at least one sample a pixel expected");
   const scene::Camera& camera = scene.camera(id);
-  const auto caster = raycast::make_ray_caster(intersector, scene);
-  const PathEstimator paths(scene, *caster);
+  const PathEstimator paths(scene, caster);
   Film film(camera, paths, core::derived_seed(run.seed, "path tracer pixels"));
   core::Progress::Stage stage(
       run.progress, "rendering " + camera.name,

@@ -5,6 +5,7 @@
 
 #include "core/image.h"
 #include "core/run.h"
+#include "raycast/ray_caster.h"
 #include "scene/scene.h"
 
 namespace interflect::montecarlo {
@@ -25,5 +26,8 @@ struct Rendering {
 /// @throws core::InputError   if there is no such camera, or no samples are asked for
 Rendering render(const scene::Scene& scene, scene::CameraId camera, std::uint64_t samples, Run& run,
                  const std::string& intersector = "embree");
+/// The same with a ray caster of the scene that is there already.
+Rendering render(const scene::Scene& scene, scene::CameraId camera, std::uint64_t samples, Run& run,
+                 const raycast::RayCaster& caster);
 
 }  // namespace interflect::montecarlo

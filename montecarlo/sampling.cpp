@@ -4,71 +4,43 @@
 #include <cmath>
 #include <numeric>
 
+#include "montecarlo/waves.h"
+
 namespace interflect::montecarlo {
 
 namespace {
 
-constexpr std::uint64_t samples_per_block = 256;
-constexpr std::size_t blocks_per_wave = 8192;  ///< results kept at once: about 1 MB
-constexpr double pilot_margin = 1.5;           ///< for the noise of a pilot's own s²
+constexpr double pilot_margin = 1.5;  ///< for the noise of a pilot's own s²
 
-struct Block {
-  std::uint32_t measurement;
-  std::uint64_t first, end;
-};
-
-/// Blocks round by round: the first of every measurement, the second of every measurement that has one, ...
-class Waves {
- public:
-  explicit Waves(std::span<const std::uint64_t> counts) : counts_(counts) {}
-
-  std::vector<Block> next() {
-    std::vector<Block> wave;
-    while (wave.size() < blocks_per_wave && add_round(wave)) ++round_;
-    return wave;
-  }
-
- private:
-  bool add_round(std::vector<Block>& wave) const {
-    const std::size_t before = wave.size();
-    const std::uint64_t first = round_ * samples_per_block;
-    for (std::uint32_t m = 0; m < counts_.size(); ++m)
-      if (first < counts_[m]) wave.push_back({m, first, std::min(first + samples_per_block, counts_[m])});
-    return wave.size() > before;
-  }
-
-  std::span<const std::uint64_t> counts_;
-  std::uint64_t round_ = 0;
-};
-
-Tally sample_block(const MeasurementSampler& measurement, const Block& block, const PathEstimator& paths,
+Tally sample_block(const MeasurementSampler& measurement, const SampleBlock& block, const PathEstimator& paths,
                    std::uint64_t seed) {
   Tally tally;
   for (std::uint64_t k = block.first; k < block.end; ++k) {
     core::RandomNumbers numbers(seed, block.measurement, k);
-    tally.add(measurement.sample(paths, numbers), k);
+    const Spectrum sample = measurement.sample(paths, numbers);
+    tally.add(sample, paths.scene().weigh(sample), k);
   }
   return tally;
 }
 
 /// Samples that are only counted with.
 struct Pilot {
-  const scene::Scene& scene;
   const PathEstimator& paths;
   const SamplingTarget& target;
-  double floor;  ///< absolute, for a measurement of scale 1
   std::uint64_t seed;
 
   std::uint64_t needed(const MeasurementSampler& measurement, std::uint32_t stream, std::uint64_t samples) const {
-    core::Moments weighted;
+    core::ScalarMoments weighed;
     for (std::uint64_t k = 0; k < samples; ++k) {
       core::RandomNumbers numbers(seed, stream, k);
-      weighted.add(Spectrum(scene.weigh(measurement.sample(paths, numbers))));
+      weighed.add(paths.scene().weigh(measurement.sample(paths, numbers)));
     }
-    const double mean = std::abs(weighted.mean()[0]), variance = weighted.variance()[0], scale = measurement.scale();
-    const double wanted = std::max(target.relative * mean, floor * scale);
-    const double rule_of_three = 3 * scale * scene.weigh(paths.largest_score()) / wanted;
-    const double n = variance > 0 ? pilot_margin * variance / (wanted * wanted) : mean > 0 ? 0 : rule_of_three;
+    const double variance = weighed.variance(), scale = measurement.scale();
+    const double wanted = target.standard_error(weighed.mean(), scale);
+    const double rule_of_three = 3 * scale * paths.scene().weigh(paths.largest_score()) / wanted;
+    const double n = variance > 0          ? pilot_margin * variance / (wanted * wanted)
+                     : weighed.mean() != 0 ? 0
+                                           : rule_of_three;
     // Not a number (0 / 0, or the pilot met a sample that is not finite): the fewest will do.
     if (!(n > static_cast<double>(target.fewest))) return target.fewest;
     return static_cast<std::uint64_t>(std::ceil(std::min(n, static_cast<double>(target.most))));
@@ -84,7 +56,7 @@ std::vector<Tally> sample_all(std::span<const MeasurementSampler> measurements, 
   core::Progress::Stage stage(run.progress, "path tracing", total);
   std::vector<Tally> tallies(measurements.size());
   Waves waves(counts);
-  for (std::vector<Block> wave = waves.next(); !wave.empty() && !run.stop.stop_requested(); wave = waves.next()) {
+  for (std::vector<SampleBlock> wave = waves.next(); !wave.empty() && !run.stop.stop_requested(); wave = waves.next()) {
     std::vector<Tally> found(wave.size());
     run.threads.for_blocks(static_cast<Index>(wave.size()), 1, [&](Index begin, Index) {
       if (run.stop.stop_requested()) return;
@@ -109,11 +81,10 @@ double mean_irradiance_scale(const scene::Scene& scene) {
   return absorbing > 0 ? scene.weigh(scene.emitted_flux()) / absorbing : 0;
 }
 
-SamplingPlan plan_samples(const scene::Scene& scene, std::span<const MeasurementSampler> measurements,
-                          const PathEstimator& paths, const SamplingTarget& target, Run& run) {
-  const double floor = target.floor * mean_irradiance_scale(scene);
-  const Pilot first{scene, paths, target, floor, core::derived_seed(run.seed, "path tracer pilot")};
-  const Pilot second{scene, paths, target, floor, core::derived_seed(run.seed, "path tracer second pilot")};
+SamplingPlan plan_samples(std::span<const MeasurementSampler> measurements, const PathEstimator& paths,
+                          const SamplingTarget& target, Run& run) {
+  const Pilot first{paths, target, core::derived_seed(run.seed, "path tracer pilot")};
+  const Pilot second{paths, target, core::derived_seed(run.seed, "path tracer second pilot")};
   core::Progress::Stage stage(run.progress, "path tracing pilot", measurements.size());
   SamplingPlan plan{std::vector<std::uint64_t>(measurements.size(), target.fewest)};
   std::vector<std::uint64_t> spent(measurements.size(), pilot_samples);
@@ -121,7 +92,7 @@ SamplingPlan plan_samples(const scene::Scene& scene, std::span<const Measurement
     if (run.stop.stop_requested()) return;
     const auto m = static_cast<std::size_t>(begin);
     std::uint64_t n = first.needed(measurements[m], static_cast<std::uint32_t>(m), pilot_samples);
-    if (const std::uint64_t more = n / 8; more > pilot_samples) {
+    if (const std::uint64_t more = std::min(n / 8, largest_pilot); more > pilot_samples) {
       spent[m] += more;
       n = second.needed(measurements[m], static_cast<std::uint32_t>(m), more);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "core/run.h"
@@ -17,11 +19,16 @@ namespace interflect::montecarlo {
 std::vector<Tally> sample_all(std::span<const MeasurementSampler> measurements, std::span<const std::uint64_t> counts,
                               const PathEstimator& paths, std::uint64_t seed, Run& run);
 
-/// How exact the answers shall be; see PathTracerSettings.
+/// How exact the answers shall be.
 struct SamplingTarget {
   double relative;             ///< standard error of the weighted value, relative to it
-  double floor;                ///< or absolute: part of the scene's mean irradiance
+  double absolute;             ///< or absolute, for a measurement of scale 1 [lx | W/m²]
   std::uint64_t fewest, most;  ///< samples per measurement
+
+  /// The standard error that will do for a measurement of this weighted mean and scale.
+  double standard_error(double mean, double scale) const {
+    return std::max(relative * std::abs(mean), absolute * scale);
+  }
 };
 
 struct SamplingPlan {
@@ -32,20 +39,24 @@ struct SamplingPlan {
 /// How many samples each measurement needs, from pilots that are thrown away: so the answer stays unbiased [Kirk and
 /// Arvo 1991].
 ///
-///   n = 1.5 s² / max(relative |mean|, floor H_scene scale)²,   mean and s² of the pilot's weighted samples;
-///   3 w / n = floor H_scene scale  where all of the pilot scored zero (rule of three, as in Tally::estimate).
+///   n = 1.5 s² / target²,   s² of the pilot's weighted samples, target = SamplingTarget::standard_error;
+///   3 w / n = target        where all of the pilot scored zero (rule of three, as in Tally::estimate).
 ///
 /// The first pilot has 1024 samples.  Where it asks for more than eight times as many, a second one of n / 8 samples
-/// decides: s² of few samples of a skewed distribution is too often far too small.  The factor 1.5 covers what noise is
-/// left, so that nearly all measurements reach their target.
-SamplingPlan plan_samples(const scene::Scene& scene, std::span<const MeasurementSampler> measurements,
-                          const PathEstimator& paths, const SamplingTarget& target, Run& run);
+/// (131 072 at most) decides: s² of few samples of a skewed distribution is too often far too small.  The factor 1.5
+/// covers what noise is left, so that nearly all measurements reach their target.
+SamplingPlan plan_samples(std::span<const MeasurementSampler> measurements, const PathEstimator& paths,
+                          const SamplingTarget& target, Run& run);
 
 /// Mean irradiance of all surfaces that can reflect if the scene were closed and well mixed: Phi / sum A (1 - rho), in
 /// weighted channels [lx | W/m²].  A scale, not an answer.
 double mean_irradiance_scale(const scene::Scene& scene);
 
-inline constexpr std::uint64_t pilot_samples = 1024;   ///< enough to meet the rare bright path that makes most of the variance
-inline constexpr std::uint64_t fewest_samples = 4096;  ///< of a measurement with a target: its standard error is then worth something
+/// Enough to meet the rare bright path that makes most of the variance.
+inline constexpr std::uint64_t pilot_samples = 1024;
+/// Of a second pilot: more would cost time and interrupt late, and s² is known well.
+inline constexpr std::uint64_t largest_pilot = 1u << 17;
+/// Of a measurement with a target: its standard error is then worth something.
+inline constexpr std::uint64_t fewest_samples = 4096;
 
 }  // namespace interflect::montecarlo

@@ -2,23 +2,28 @@
 
 namespace interflect::montecarlo {
 
-void Tally::add(const Spectrum& sample, std::uint64_t index) {
+void Tally::add(const Spectrum& sample, double weighed_sample, std::uint64_t index) {
   const bool fine = sample.is_finite();
   if (!fine && not_finite++ == 0) first_not_finite = index;
   moments.add(fine ? sample : Spectrum::zero());
+  weighed.add(fine ? weighed_sample : 0);
 }
 
 void Tally::merge(const Tally& other) {
   moments.merge(other.moments);
+  weighed.merge(other.weighed);
   if (not_finite == 0) first_not_finite = other.first_not_finite;
   not_finite += other.not_finite;
 }
 
 Estimate Tally::estimate(const Spectrum& largest) const {
-  Estimate found = moments.unbiased();
+  Estimate found = unbiased_estimate(moments.mean(), moments.standard_error(), moments.count());
+  found.weighed_standard_error = weighed.standard_error();
   for (int c = 0; c < Spectrum::capacity; ++c)
-    if (found.value[c] == 0 && found.standard_error[c] == 0)
+    if (found.value[c] == 0 && found.standard_error[c] == 0 && largest[c] > 0) {
       found.standard_error[c] = 3 * largest[c] / static_cast<double>(found.samples);
+      found.weighed_standard_error = std::numeric_limits<double>::quiet_NaN();
+    }
   if (not_finite > 0) {
     found.error_bound = Spectrum(std::numeric_limits<double>::infinity());
     found.claim = Claim::none;

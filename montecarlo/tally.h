@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/estimate.h"
 #include "core/moments.h"
 
 namespace interflect::montecarlo {
@@ -7,15 +8,18 @@ namespace interflect::montecarlo {
 /// The samples of one measurement.  One that is not finite counts as zero and is remembered: it would be a bug, and the
 /// key (index) lets it be traced again.
 struct Tally {
-  core::Moments moments;
+  core::Moments moments;        ///< channel by channel
+  core::ScalarMoments weighed;  ///< of the scene's weighted value: the channels of a path are correlated
   std::uint64_t not_finite = 0, first_not_finite = 0;  ///< how many, and the index of one of them
 
-  void add(const Spectrum& sample, std::uint64_t index);
+  /// @param weighed_sample  the scene's weighted value of the sample
+  void add(const Spectrum& sample, double weighed_sample, std::uint64_t index);
   void merge(const Tally& other);
 
   /// The unbiased estimate.  Where every sample of a channel scored zero although lights emit in it, the standard error
   /// is not 0 but the "rule of three": 3 w / n, the 95 % upper bound of a mean whose rare samples are of size w =
-  /// `largest`. With samples that were not finite there is no bound on the error: infinite, and no claim.
+  /// `largest`; that of the weighted value is then not known.  With samples that were not finite there is no bound on
+  /// the error: infinite, and no claim.
   Estimate estimate(const Spectrum& largest) const;
 };
 

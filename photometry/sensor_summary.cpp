@@ -29,7 +29,7 @@ std::vector<SensorSummary> summarise(const scene::Scene& scene, std::span<const 
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     SensorSummary& s = summaries[i];
     s.mean /= s.points;
-    s.error = (s.error + 1.96 * std::sqrt(variances[i])) / s.points;
+    s.error = (s.error + normal_95 * std::sqrt(variances[i])) / s.points;
   }
   return summaries;
 }

@@ -15,7 +15,8 @@ struct SensorSummary {
   std::string sensor;
   int points = 0;
   double minimum = 0, mean = 0, maximum = 0;
-  double error = 0;  ///< of the mean: mean error bound + 1.96 standard errors of the mean; points are taken as independent in noise
+  /// Of the mean: the mean error bound and normal_95 standard errors of the mean; points are taken as independent in noise.
+  double error = 0;
   double uniformity() const { return mean > 0 ? minimum / mean : 0; }  ///< U0 = E_min / E_avg
 };
 

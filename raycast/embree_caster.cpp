@@ -12,8 +12,8 @@ namespace interflect::raycast {
 
 namespace {
 
-constexpr double relative_offset =
-    0x1p-18;  ///< of the scene's largest dimension: 128 units of a coordinate's last place
+/// Of the scene's largest dimension: 128 units of a coordinate's last place.
+constexpr double relative_offset = 0x1p-18;
 constexpr unsigned every_mask = ~0u;
 constexpr std::size_t lanes = 8;
 

@@ -5,9 +5,7 @@
 namespace interflect::raycast {
 
 SceneFrame frame_of(const scene::Scene& scene) {
-  geometry::Box box;
-  for (const scene::Facet& facet : scene.facets)
-    for (const Vec3& corner : facet.corner) box.extend(corner);
+  const geometry::Box box = scene.box();
   if (box.isEmpty()) return {};
   const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   return {.centre = box.center(), .size = box.sizes().maxCoeff(), .rounding = 0x1p-49 * largest};

@@ -80,11 +80,8 @@ void write_atomically(const std::filesystem::path& file, std::string_view bytes)
   temporary.keep();
 }
 
-void prepare_output_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) fail(directory, error.value());
-  if (!std::filesystem::is_directory(directory, error)) fail(directory, ENOTDIR);
+void require_writable(const std::filesystem::path& directory) {
+  if (std::error_code ignored; !std::filesystem::is_directory(directory, ignored)) fail(directory, ENOTDIR);
   try {
     TemporaryFile(directory / "probe").write("?");
   } catch (const core::InputError& problem) {

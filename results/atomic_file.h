@@ -10,9 +10,8 @@ namespace interflect::results {
 /// @throws core::InputError  "out/solution.vtu: cannot be written: No space left on device"
 void write_atomically(const std::filesystem::path& file, std::string_view bytes);
 
-/// Makes the directory with its parents and writes a byte in it, so that hours of work are not spent on what cannot be
-/// kept.
-/// @throws core::InputError  naming the directory
-void prepare_output_directory(const std::filesystem::path& directory);
+/// Writes a byte in a file of the directory that is gone at once.
+/// @throws core::InputError  naming the directory, where that cannot be done
+void require_writable(const std::filesystem::path& directory);
 
 }  // namespace interflect::results

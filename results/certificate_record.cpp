@@ -15,8 +15,10 @@ Record interval(const validation::Interval& i) {
 Record norms(const validation::Norms& n) {
   Record out;
   out.add("measurements", n.measurements).add("area", n.area).add("mean_irradiance", n.mean_irradiance);
-  if (n.measurements > 0)
+  if (n.measurements > 0) {
     out.add("l1", interval(n.l1)).add("l2", interval(n.l2)).add("max", interval(n.max)).add("worst", n.worst);
+    out.add("bias", interval(n.bias));
+  }
   return out.add("reference_error", n.reference_error).add("claimed_error", n.claimed_error);
 }
 
@@ -48,7 +50,8 @@ Record judgement(const validation::Judgement& j, std::span<const Judged> judged)
 Record energy(const validation::EnergyBalance& e, int channels) {
   Record out;
   out.add("emitted", e.emitted, channels).add("absorbed", e.absorbed, channels).add("lost", e.lost, channels);
-  out.add("on_backs", e.on_backs, channels).add("residual", e.residual, channels);
+  if (e.on_backs) out.add("on_backs", *e.on_backs, channels);
+  if (e.residual) out.add("residual", *e.residual, channels);
   return out.add("standard_error", e.standard_error, channels);
 }
 

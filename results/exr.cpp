@@ -70,6 +70,8 @@ std::string exr_bytes(const core::Image& image) {
   Imf::StringVector order;
   for (std::size_t c = 0; c < image.channels.size(); ++c) {
     const std::string name = exr_name(image.channels[c]);
+    if (header.channels().findChannel(name) != nullptr)
+      throw core::PreconditionError("exr: two channels would have the name " + name);
     order.push_back(name);
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     frame.insert(name, slice(data.data(), c, image.channels.size(), image.width));
@@ -89,8 +91,8 @@ core::Image read_exr(const std::filesystem::path& file) try {
   const Imath::Box2i window = in.header().dataWindow();
   core::Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, channel_order(in.header()));
   const std::size_t channels = image.channels.size();
-  const Index first =
-      Index{window.min.y} * image.width + window.min.x;  // the frame's pointers are to pixel (0, 0), inside or not
+  // The frame's pointers are to pixel (0, 0), whether it lies inside the window or not.
+  const Index first = Index{window.min.y} * image.width + window.min.x;
   float* origin = image.data.data() - first * static_cast<Index>(channels);
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < channels; ++c) frame.insert(image.channels[c], slice(origin, c, channels, image.width));

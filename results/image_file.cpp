@@ -1,20 +1,14 @@
 #include "results/image_file.h"
 
-#include <algorithm>
-
 #include "core/error.h"
+#include "core/format.h"
 #include "results/atomic_file.h"
 
 namespace interflect::results {
 
 namespace {
 
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
+std::string extension_of(const std::filesystem::path& file) { return core::lower_case(file.extension().string()); }
 
 }  // namespace
 

@@ -10,9 +10,10 @@ namespace interflect::results {
 
 /// OpenEXR file contents: every channel under its name (r, g, b become R, G, B, which viewers expect), 32-bit floats as
 /// they are, ZIP.
+/// @pre  no two channels have one name, R and r being one: of such channels the file would hold one
 std::string exr_bytes(const core::Image& image);
-/// Channels in the order in which they were written, where exr_bytes wrote them.  @throws core::InputError  naming the
-/// file
+/// Channels in the order in which they were written, where exr_bytes wrote them.
+/// @throws core::InputError  naming the file
 core::Image read_exr(const std::filesystem::path& file);
 
 /// PNG file contents, 8 bits a channel, of an image of 1, 3 or 4 channels for display: [0, 1], already encoded;

@@ -27,6 +27,7 @@ class Writer {
  private:
   Json json(bool value, const std::string&) { return value; }
   Json json(std::int64_t value, const std::string&) { return value; }
+  Json json(std::uint64_t value, const std::string&) { return value; }
   Json json(const std::string& value, const std::string&) { return value; }
   Json json(const Record::Strings& value, const std::string&) { return value; }
   Json json(const Record& value, const std::string& path) { return object(value, path); }
@@ -51,7 +52,6 @@ Record& Record::add_value(std::string key, Value value) {
   entries_.push_back({std::move(key), std::move(value)});
   return *this;
 }
-Record& Record::add_integer(std::string key, std::int64_t value) { return add_value(std::move(key), value); }
 Record& Record::add(std::string key, bool value) { return add_value(std::move(key), value); }
 Record& Record::add(std::string key, double value) { return add_value(std::move(key), value); }
 Record& Record::add(std::string key, std::string value) { return add_value(std::move(key), std::move(value)); }

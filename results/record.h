@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -18,7 +19,7 @@ class Record {
   using Numbers = std::vector<double>;
   using Strings = std::vector<std::string>;
   using List = std::vector<Record>;
-  using Value = std::variant<bool, std::int64_t, double, std::string, Numbers, Strings, Record, List>;
+  using Value = std::variant<bool, std::int64_t, std::uint64_t, double, std::string, Numbers, Strings, Record, List>;
 
   Record& add(std::string key, bool value);
   Record& add(std::string key, double value);
@@ -28,10 +29,11 @@ class Record {
   Record& add(std::string key, Strings value);
   Record& add(std::string key, Record value);
   Record& add(std::string key, List value);
-  /// Counts and ids; above 2^63 - 1 (never, in practice) they would wrap.
+  /// Counts, ids and seeds: all integers as they are, whatever their size and sign.
   template <class Integer>
   requires std::is_integral_v<Integer> Record& add(std::string key, Integer value) {
-    return add_integer(std::move(key), static_cast<std::int64_t>(value));
+    using Widest = std::conditional_t<std::is_signed_v<Integer>, std::int64_t, std::uint64_t>;
+    return add_value(std::move(key), static_cast<Widest>(value));
   }
   /// The first `channels` numbers of a spectrum.
   Record& add(std::string key, const Spectrum& value, int channels);
@@ -41,7 +43,6 @@ class Record {
   const std::vector<Entry>& entries() const { return entries_; }
 
  private:
-  Record& add_integer(std::string key, std::int64_t value);
   Record& add_value(std::string key, Value value);
 
   std::vector<Entry> entries_;

@@ -6,13 +6,7 @@
 
 namespace interflect::results {
 
-Spectrum error_95(const Estimate& estimate) {
-  return estimate.error_bound + estimate.standard_error * 1.959963984540054;
-}
-
-std::string side_name(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side) {
-  return scene.surface(surface).name + (side == scene::Side::back ? "/back" : "");
-}
+Spectrum error_95(const Estimate& estimate) { return estimate.error_bound + estimate.standard_error * normal_95; }
 
 std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::ElementMesh& mesh,
                                       std::span<const Spectrum> radiosity, std::span<const Spectrum> irradiance,
@@ -22,7 +16,7 @@ std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::Ele
     throw core::PreconditionError("surface_means: one value per element expected");
   std::vector<SurfaceRow> rows;
   for (const mesh::ElementMesh::Part& part : mesh.parts()) {
-    SurfaceRow row{side_name(scene, part.surface, part.side), 0, {}, {}, {}};
+    SurfaceRow row{scene.side_name(part.surface, part.side), 0, {}, {}, {}};
     for (std::size_t i = part.first; i < std::size_t{part.first} + part.count; ++i) {
       const double area = mesh.patches()[i].area;
       row.area += area;
@@ -44,7 +38,7 @@ SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scen
   const Spectrum rho = material.reflectance_of(side);
   Spectrum error = error_95(irradiance);
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] = rho[c] == 0 ? 0 : rho[c] * error[c];
-  return {side_name(scene, surface, side), scene.area(surface), material.exitance_of(side) + rho * irradiance.value,
+  return {scene.side_name(surface, side), scene.area(surface), material.exitance_of(side) + rho * irradiance.value,
           irradiance.value, error};
 }
 

@@ -13,19 +13,16 @@
 /// The tables of a run; every method writes the same columns, so that runs join on the name.
 namespace interflect::results {
 
-/// Half the width of a 95 % interval: error_bound + 1.96 standard errors, per channel.  Infinite where the bound is.
+/// Half the width of a 95 % interval: error_bound + normal_95 standard errors, per channel.  Infinite where the bound is.
 Spectrum error_95(const Estimate& estimate);
 
 /// A side of a surface: area means [W/m² | lm/m², lx].
 struct SurfaceRow {
-  std::string name;  ///< NAME, or NAME/back
+  std::string name;  ///< of the side
   double area;       ///< [m²]
   Spectrum radiosity, irradiance;
   Spectrum error;  ///< of the radiosity
 };
-
-/// "NAME", or "NAME/back" for a back.
-std::string side_name(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side);
 
 /// Means over each part of a mesh, from values per element.  The error of a mean is at most the mean of the errors.
 std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::ElementMesh& mesh,

@@ -21,6 +21,16 @@ double weighted_quantile(std::span<const double> values, std::span<const double>
   return values[order.back()];
 }
 
+core::Image as_rgb(const scene::Scene& scene, const core::Image& radiance) {
+  core::Image rgb(radiance.width, radiance.height, {"R", "G", "B"});
+  for (int y = 0; y < rgb.height; ++y)
+    for (int x = 0; x < rgb.width; ++x) {
+      const auto colour = scene.rgb(radiance.pixel(x, y));
+      for (int c = 0; c < 3; ++c) rgb.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]);
+    }
+  return rgb;
+}
+
 double white_of(const core::Image& image) {
   std::vector<double> brightest;
   for (std::size_t at = 0; at < image.data.size(); at += image.channels.size()) {

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/image.h"
+#include "scene/scene.h"
 
 namespace interflect::results {
 
@@ -10,6 +11,9 @@ namespace interflect::results {
 struct ToneMapping {
   double white = 0;  ///< radiance shown as white; 0: the 99th percentile of the picture
 };
+
+/// A picture of any number of channels as linear R, G, B, for looking (Scene::rgb).
+core::Image as_rgb(const scene::Scene& scene, const core::Image& radiance);
 
 /// The 99th percentile of the pixels' largest channels; 1 for a picture without light.  Pixels that are not finite are
 /// left out.

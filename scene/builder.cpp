@@ -96,16 +96,24 @@ void SceneBuilder::share_flux(MaterialId material, const Spectrum& flux) {
   scene_.materials[material.value].exitance = flux / area;
 }
 
-Scene SceneBuilder::finish() {
-  std::set<std::string> taken;
-  for (const Surface& surface : scene_.surfaces) taken.insert(surface.name);
-  std::set<std::string> used;
+Scene SceneBuilder::finish(const std::string& shown) {
+  std::multiset<std::string> given;
+  for (const Surface& surface : scene_.surfaces) given.insert(surface.name);
+  std::set<std::string> used;  // by sides
   for (Surface& surface : scene_.surfaces) {
+    const bool two_sided = scene_.materials[surface.material.value].sides == Sides::both;
+    const auto is_free = [&](const std::string& name) {
+      return !used.contains(name) && !(two_sided && used.contains(name + back_suffix));
+    };
     const std::string stem = surface.name.empty() ? "surface" : surface.name;
     std::string name = stem;
-    for (int k = 2; used.contains(name) || (name != surface.name && taken.contains(name)); ++k)
+    for (int k = 2; !is_free(name) || (name != surface.name && given.contains(name)); ++k)
       name = stem + "-" + std::to_string(k);
     used.insert(name);
+    if (two_sided) used.insert(name + back_suffix);
+    if (name != surface.name && !surface.name.empty() && given.count(surface.name) == 1)
+      scene_.warnings.push_back({shown, "the surface '" + surface.name + "' is called '" + name +
+                                            "': the back of a surface is called NAME/back, and that name is taken"});
     surface.name = std::move(name);
   }
   return std::move(scene_);

@@ -32,8 +32,10 @@ class SceneBuilder {
   /// `flux` [W | lm] shared by area over the surfaces that bear the material becomes its exitance.
   void share_flux(MaterialId material, const Spectrum& flux);
 
-  /// The finished scene, names made unique.
-  Scene finish();
+  /// The finished scene.  Names are made unique by numbers, so that each active side's is (Scene::side_name); a surface
+  /// that only a back stands in the way of is warned of.
+  /// @param shown  the scene in that warning
+  Scene finish(const std::string& shown = "scene");
 
  private:
   Scene scene_;

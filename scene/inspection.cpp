@@ -15,7 +15,7 @@ bool Inspection::closed() const {
 std::string describe(Kind kind) {
   switch (kind) {
     case Kind::gap:
-      return "open edge";
+      return "gap (open edge)";
     case Kind::inconsistent_normals:
       return "neighbours face opposite ways";
     case Kind::duplicate_faces:

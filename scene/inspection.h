@@ -21,7 +21,7 @@ struct Inspection {
   bool closed() const;            ///< no gap: every edge is covered by neighbours
 };
 
-/// Open edges are found geometrically, T-junctions allowed: an edge is closed where collinear edges of other facets cover it
+/// Gaps (open edges) are found geometrically, T-junctions allowed: an edge is closed where collinear edges of other facets cover it
 /// (within 1e-6 of the scene's diagonal).  Normals are inconsistent where two one-sided neighbours run along their common edge
 /// in the same direction.
 Inspection inspect(const Scene& scene);

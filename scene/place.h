@@ -40,6 +40,12 @@ struct SurfacePatch {
 /// A patch from its corners, with the area that they enclose.
 SurfacePatch make_patch(SurfaceId surface, Side side, std::span<const Vec3> ring);
 
+/// The four parts that the midpoints of its edges cut a triangle or a convex quad into, by their corners (four of them
+/// on a quad, else three).  Corner k of part k is corner k of the whole, for k < 3 (k < 4 of a quad); the fourth part
+/// of a triangle is its middle, whose corner k lies opposite to corner k.
+std::array<std::array<Vec3, 4>, 4> quarters_of(std::span<const Vec3> ring);
+std::array<SurfacePatch, 4> quarters_of(const SurfacePatch& patch);
+
 /// A spectral quantity as a function of place: a radiosity solution as others see it.
 using SurfaceField = std::function<Spectrum(const SurfacePoint&)>;
 

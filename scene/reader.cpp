@@ -69,7 +69,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   if (root.has("sensors")) io::read_sensors(root.at("sensors"), unit, builder.scene());
   if (root.has("cameras")) io::read_cameras(root.at("cameras"), unit, builder.scene());
   if (root.has("expected")) io::read_expected(root.at("expected"), builder.scene());
-  Scene scene = builder.finish();
+  Scene scene = builder.finish(name);
   warn_of_oddities(scene, name);
   return scene;
 }

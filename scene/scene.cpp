@@ -9,6 +9,10 @@ std::vector<SurfaceId> Scene::surface_ids() const {
   return ids;
 }
 
+std::string Scene::side_name(SurfaceId id, Side side) const {
+  return side == Side::front ? surface(id).name : surface(id).name + back_suffix;
+}
+
 std::optional<CameraId> Scene::find_camera(const std::string& name) const {
   for (std::uint32_t i = 0; i < cameras.size(); ++i)
     if (cameras[i].name == name) return CameraId{i};
@@ -30,7 +34,8 @@ geometry::Box Scene::box() const {
 
 double Scene::weigh(const Spectrum& s) const {
   double sum = 0;
-  for (int c = 0; c < channel_count(); ++c) sum += weights[c] * s[c];
+  for (int c = 0; c < channel_count(); ++c)
+    if (weights[c] != 0) sum += weights[c] * s[c];  // 0 times an unknown (infinite) error is no part of the sum
   return sum;
 }
 

@@ -26,16 +26,20 @@ struct Facet {
 
 /// An input surface: what a person names and asks about.  Its facets are scene.facets[first_facet .. first_facet + facets).
 struct Surface {
-  std::string name;  ///< unique in the scene
+  std::string name;  ///< its sides' names (Scene::side_name) are unique in the scene
   MaterialId material;
   std::uint32_t first_facet = 0, facets = 0;
   std::optional<geometry::PlanarPolygon> outline;  ///< where it is one planar polygon: elements may ignore its facets
 };
 
+/// What a back's name ends in.
+inline constexpr const char* back_suffix = "/back";
+
 /// A repair or a finding of the reader, counted; nothing is repaired silently.
 struct Note {
   std::string place;    ///< "room.obj"
   std::string message;  ///< "12 degenerate faces dropped"
+  std::string line() const { return place + ": " + message; }
 };
 
 /// What is lit and what is asked, in SI units, as read and checked.  It does not change after reading.
@@ -62,11 +66,12 @@ struct Scene {
     return std::span(facets).subspan(surface(id).first_facet, surface(id).facets);
   }
   std::vector<SurfaceId> surface_ids() const;
+  std::string side_name(SurfaceId id, Side side) const;  ///< "NAME", or "NAME/back" for a back: unique in the scene
   std::optional<CameraId> find_camera(const std::string& name) const;
 
   double area(SurfaceId id) const;        ///< of one side [m²]
   geometry::Box box() const;              ///< of all facets [m]
-  double weigh(const Spectrum& s) const;  ///< sum_c weights[c] s[c]
+  double weigh(const Spectrum& s) const;  ///< sum_c weights[c] s[c], where a weight of 0 leaves out what is infinite too
   Spectrum emitted_flux() const;          ///< sum of A E over the surfaces [W | lm]
   const char* irradiance_unit() const { return quantity == Quantity::photometric ? "lx" : "W/m2"; }
   const char* flux_unit() const { return quantity == Quantity::photometric ? "lm" : "W"; }

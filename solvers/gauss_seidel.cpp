@@ -90,6 +90,17 @@ class Sweeps {
   ColumnMatrix sums_, change_;  ///< columns x block_rows
 };
 
+/// e + R G^-1 K x - x.
+ColumnMatrix residual_of(const System& system, const ColumnMatrix& x, Run& run) {
+  const Eigen::Map<const Eigen::VectorXd> G(system.K.gram().data(), x.rows());
+  ColumnMatrix h(x.rows(), x.cols());
+  system.K.apply(x, h, run);
+  h.array().colwise() /= G.array();
+  ColumnMatrix residual = system.e - x;
+  system.R.add_reflected(h, residual);
+  return residual;
+}
+
 }  // namespace
 
 SolverReport GaussSeidel::advance(const System& system, SolverState& state, const StoppingRule& rule, Run& run) const {
@@ -103,20 +114,11 @@ SolverReport GaussSeidel::advance(const System& system, SolverState& state, cons
   SolverReport report;
   for (bool more = true; more;) {
     sweeps.sweep();
+    ColumnMatrix x = sweeps.radiosity();
+    const ColumnMatrix residual = system.K.symmetric() ? sweeps.residual() : residual_of(system, x, run);
+    more = go_on(report, relative_size(residual, x), rule, run);
+    state.x.swap(x);  // only now: a solve that fails leaves the last good x for another
     ++state.step;
-    state.x = sweeps.radiosity();
-    ColumnMatrix residual;
-    if (system.K.symmetric()) {
-      residual = sweeps.residual();
-    } else {
-      const Eigen::Map<const Eigen::VectorXd> G(system.K.gram().data(), state.x.rows());
-      ColumnMatrix h(state.x.rows(), state.x.cols());
-      system.K.apply(state.x, h, run);
-      h.array().colwise() /= G.array();
-      residual = system.e - state.x;
-      system.R.add_reflected(h, residual);
-    }
-    more = go_on(report, relative_size(residual, state.x), rule, run);
   }
   return report;
 }

@@ -15,9 +15,10 @@ SolverReport Jacobi::advance(const System& system, SolverState& state, const Sto
     h.array().colwise() /= G.array();
     next = system.e;
     system.R.add_reflected(h, next);
-    ++state.step;
     // The residual belongs to x, not to `next`: the last x that has one is the result.
-    if (!go_on(report, relative_size(next - state.x, state.x), rule, run)) return report;
+    const bool more = go_on(report, relative_size(next - state.x, state.x), rule, run);
+    ++state.step;
+    if (!more) return report;
     state.x.swap(next);
   }
 }

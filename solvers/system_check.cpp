@@ -10,9 +10,13 @@ namespace interflect::solvers {
 void require_solvable(const System& system) {
   const ColumnMatrix& rho = system.R.reflectance();
   const Index n = system.K.layout().unknowns();
-  if (system.e.rows() != n || rho.rows() != n || rho.cols() != system.e.cols())
+  const std::span<const double> G = system.K.gram();
+  if (static_cast<Index>(G.size()) != n || system.e.rows() != n || rho.rows() != n || rho.cols() != system.e.cols())
     throw core::PreconditionError("solve: K, R and e have different shapes");
-  for (Index a = 0; a < n; ++a)
+  for (Index a = 0; a < n; ++a) {
+    if (const double area = G[static_cast<std::size_t>(a)]; !(area > 0) || !std::isfinite(area))
+      throw core::InputError(
+          core::format("unknown %td: the area of its element is %g m2, a positive one expected", a, area));
     for (Index c = 0; c < rho.cols(); ++c) {
       const double r = rho(a, c);
       if (!(r >= 0 && r < 1))
@@ -20,6 +24,7 @@ void require_solvable(const System& system) {
       if (!std::isfinite(system.e(a, c)))
         throw core::InputError(core::format("exitance %g of unknown %td: a finite number expected", system.e(a, c), a));
     }
+  }
 }
 
 bool prepare(const System& system, SolverState& state) {

@@ -4,8 +4,9 @@
 
 namespace interflect::solvers {
 
-/// @throws core::InputError         reflectance outside 0 <= rho < 1; a reflectance or an exitance that is not a finite
-/// number
+/// @throws core::InputError         reflectance outside 0 <= rho < 1; an exitance that is not a finite number; an
+/// unknown
+///                                  whose entry of G is not a positive number: an element without area
 /// @throws core::PreconditionError  shapes of K, R and e that do not fit
 void require_solvable(const System& system);
 

@@ -20,6 +20,11 @@ std::string percent(double part) {
   return format("%.*f %%", std::clamp(1 - static_cast<int>(std::floor(std::log10(std::abs(p)))), 0, 9), p);
 }
 
+/// "-0.12 % (-0.20 .. -0.04)".
+std::string percent_interval(const Interval& i) {
+  return format("%+.2f %% (%+.2f .. %+.2f)", 100 * i.value, 100 * i.low, 100 * i.high);
+}
+
 bool is(const Judged& j, Judged::Kind kind) { return j.kind == kind; }
 
 Judgement judge(std::span<const Judged> judged, const Reading& reading, double z_max) {
@@ -47,9 +52,11 @@ void find_worst_surface(std::span<const Judged> judged, Certificate& certificate
   }
 }
 
-bool breaks_a_guarantee(std::span<const Judged> judged, const Comparison& comparison) {
-  return std::any_of(comparison.beyond_chance.begin(), comparison.beyond_chance.end(),
-                     [&](std::size_t i) { return judged[i].fem.claim == Claim::guaranteed; });
+/// The worst measurement of those whose guaranteed bound is broken beyond chance.
+std::optional<std::size_t> broken_guarantee(std::span<const Judged> judged, const Comparison& comparison) {
+  for (std::size_t i : comparison.beyond_chance)  // the worst first
+    if (judged[i].fem.claim == Claim::guaranteed) return i;
+  return {};
 }
 
 void give_reasons(std::span<const Judged> judged, const Judgement& j, const Settings& settings,
@@ -65,9 +72,8 @@ void give_reasons(std::span<const Judged> judged, const Judgement& j, const Sett
   if (c.drifts())
     out.push_back(format("%s: the mean of z is %+.3f, where error bounds and chance explain %.3f: FEM is %s everywhere",
                          name, c.mean_z, c.mean_z_limit, c.mean_z > 0 ? "too bright" : "too dark"));
-  if (breaks_a_guarantee(judged, c))
-    out.push_back(
-        format("%s: a guaranteed error bound is broken at %s", name, judged[c.beyond_chance.front()].name.c_str()));
+  if (const auto broken = broken_guarantee(judged, c))
+    out.push_back(format("%s: a guaranteed error bound is broken at %s", name, judged[*broken].name.c_str()));
 }
 
 void give_remarks(std::span<const Judged> judged, const Judgement& j, double alpha, std::vector<std::string>& out) {
@@ -84,6 +90,19 @@ void give_remarks(std::span<const Judged> judged, const Judgement& j, double alp
                          percent(j.norms().claimed_error).c_str()));
 }
 
+/// One remark for all readings whose bias is beyond chance; the level is divided among the readings.
+void remark_on_bias(Certificate& certificate) {
+  const double z_max = sidak_z_max(certificate.settings.alpha, certificate.judgements.size());
+  std::string significant;
+  for (const Judgement& j : certificate.judgements) {
+    const Interval& bias = j.bias();
+    if (std::abs(bias.value) > z_max * (bias.high - bias.low) / (2 * normal_95))
+      significant += (significant.empty() ? "" : ", ") + j.reading.name + " " + percent_interval(bias);
+  }
+  if (!significant.empty())
+    certificate.remarks.push_back("FEM's mean is off beyond chance (95 % interval): " + significant);
+}
+
 void check_energy(const scene::Scene& scene, Certificate& certificate) {
   const Reading reading{"", scene.weights};
   const double emitted = reading.value(certificate.fem_energy.emitted);
@@ -96,14 +115,22 @@ void check_energy(const scene::Scene& scene, Certificate& certificate) {
 }
 
 std::string verdict_of(const Certificate& certificate) {
-  const Norms& norms = certificate.judgements.front().norms();
+  const Judgement& weighted = certificate.judgements.front();
+  const Norms& norms = weighted.norms();
   const std::string measured =
-      format("FEM within %s (L2 of H) of the path-traced reference, whose own 95 %% error is %s",
-             percent(norms.l2.high).c_str(), percent(norms.reference_error).c_str());
+      format("FEM within %s (L2 of H) of the path-traced reference, whose own 95 %% error is %s; bias %s",
+             percent(norms.l2.high).c_str(), percent(norms.reference_error).c_str(),
+             percent_interval(weighted.bias()).c_str());
   return certificate.passed ? measured : "Not validated: " + certificate.reasons.front() + "; " + measured;
 }
 
 }  // namespace
+
+const Interval& Judgement::bias() const {
+  if (surfaces.measurements == 0 || elements.measurements == 0) return norms().bias;
+  const auto width = [](const Norms& n) { return n.bias.high - n.bias.low; };
+  return (width(elements) < width(surfaces) ? elements : surfaces).bias;
+}
 
 EnergyBalance sampled_energy(const Spectrum& emitted, std::span<const double> areas,
                              std::span<const Spectrum> reflectances, std::span<const Estimate> irradiance) {
@@ -153,6 +180,7 @@ Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, c
     certificate.reasons.push_back(
         format("the reference is too noisy to judge by: its 95 %% error is %s, and %s was asked for",
                percent(norms.reference_error).c_str(), percent(settings.accuracy).c_str()));
+  remark_on_bias(certificate);
   find_worst_surface(judged, certificate);
   check_energy(scene, certificate);
   certificate.expected = check_expected(scene, judged);

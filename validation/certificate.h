@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,18 +14,18 @@ namespace interflect::validation {
 
 struct Settings {
   double share = 0.99;     ///< of the measurements that must agree, in every reading
-  double alpha = 0.01;     ///< probability that chance alone makes any z, or any mean of z, count as significant
+  double alpha = 0.01;     ///< probability that chance alone makes any z or mean of z count as significant; or any bias
   double accuracy = 0.02;  ///< largest 95 % error of the reference that a judgement may rest on (relative L2 of H)
 };
 
 /// Where the flux goes [W | lm], per channel: emitted = absorbed + lost, but for errors.
 struct EnergyBalance {
   Spectrum emitted;
-  Spectrum absorbed;        ///< sum (1 - rho) A H over the active sides of the surfaces
-  Spectrum lost;            ///< through openings and onto black backs together
-  Spectrum on_backs;        ///< the part of it that hit black backs; 0 where the two are not told apart
-  Spectrum residual;        ///< emitted - absorbed - lost where that is not so by definition: solver error
-  Spectrum standard_error;  ///< of `absorbed`
+  Spectrum absorbed;                 ///< sum (1 - rho) A H over the active sides of the surfaces
+  Spectrum lost;                     ///< through openings and onto black backs together
+  std::optional<Spectrum> on_backs;  ///< the part of it that hit black backs, where the two are told apart
+  std::optional<Spectrum> residual;  ///< emitted - absorbed - lost, where that is not 0 by definition: solver error
+  Spectrum standard_error;           ///< of `absorbed`
 };
 
 /// The balance of a sampled method: its surfaces' fluxes are independent, and what is not absorbed is lost.
@@ -39,6 +40,7 @@ struct Judgement {
   Norms elements, elements_dark;  ///< over the judged elements; `dark`: those that do not emit
   Norms surfaces, surfaces_dark;  ///< over the surfaces
   const Norms& norms() const { return elements.measurements > 0 ? elements : surfaces; }  ///< the finest that there is
+  const Interval& bias() const;  ///< over all, by surfaces or by elements: whichever knows it better
 };
 
 /// Whether a solution stands up to the path-traced reference, and why.
@@ -60,7 +62,8 @@ struct Certificate {
 
 /// Passes when, in the weighted value and in every channel, at least `share` of the measurements agree and the mean of
 /// z does not drift; when no *guaranteed* bound is broken beyond chance; when the reference is as accurate as asked;
-/// and when the scene's own expectations hold.  Single differences beyond chance of *estimated* bounds are remarks.
+/// and when the scene's own expectations hold.  Single differences beyond chance of *estimated* bounds are remarks, and
+/// so is a bias of the whole beyond chance, whether bounds would explain it or not.
 Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, const EnergyBalance& fem,
                     const EnergyBalance& mc, const Settings& settings);
 

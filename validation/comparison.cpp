@@ -37,7 +37,7 @@ Difference difference(const Judged& judged, const Reading& reading) {
   Difference d;
   d.fem = reading.value(judged.fem.value);
   d.mc = reading.value(judged.mc.value);
-  d.standard_error = std::hypot(reading.error(judged.fem.standard_error), reading.error(judged.mc.standard_error));
+  d.standard_error = std::hypot(reading.noise(judged.fem).standard_error, reading.noise(judged.mc).standard_error);
   d.bound = reading.error(judged.fem.error_bound) + reading.error(judged.mc.error_bound);
   d.known = std::isfinite(d.fem) && std::isfinite(d.mc) && std::isfinite(d.standard_error) && std::isfinite(d.bound);
   if (!d.known) return d;
@@ -64,7 +64,7 @@ Comparison compare(std::span<const Judged> judged, const Reading& reading, doubl
     if (!d.known) all.unknown.push_back(i);
     if (std::abs(d.excess_z) > z_max) all.beyond_chance.push_back(i);
     if (!d.known || d.standard_error <= 0) continue;
-    drift.add(d, reading.error(judged[i].fem.standard_error), reading.error(judged[i].mc.standard_error));
+    drift.add(d, reading.noise(judged[i].fem).standard_error, reading.noise(judged[i].mc).standard_error);
     ++all.noisy;
   }
   if (!judged.empty()) all.share = 1 - static_cast<double>(all.disagreeing.size()) / static_cast<double>(judged.size());

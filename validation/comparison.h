@@ -27,13 +27,13 @@ Difference difference(const Judged& judged, const Reading& reading);
 /// All measurements in one reading.
 ///
 /// Under "every bias is within its bound", z less its bound is a standard normal number, or smaller: no |excess_z|
-/// exceeds z_max but with probability alpha.  And the mean of z, which sees a loss of 0.2 % everywhere that no single z
-/// sees, satisfies
+/// exceeds z_max but with probability alpha.  And the mean of z satisfies
 ///
 ///   | sum_j z_j | <= sum_j bound_j / SE_j + z_max sqrt( sum_j (SE_mc,j / SE_j)² + (sum_j SE_fem,j / SE_j)² ) :
 ///
 /// the noise of the reference is independent between measurements; that of FEM (shared form factors) may be fully
-/// correlated.
+/// correlated.  So the mean sees what no single z sees, a common loss beyond the bounds of z_max SE / sqrt(n); it
+/// cannot see one that bounds would explain, however many measurements there are: that is told by Norms::bias.
 struct Comparison {
   std::vector<Difference> differences;     ///< in the order of the measurements
   std::vector<std::size_t> disagreeing;    ///< not |FEM - MC| <= bound + 3 SE, the worst first

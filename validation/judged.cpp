@@ -1,5 +1,7 @@
 #include "validation/judged.h"
 
+#include <cmath>
+
 namespace interflect::validation {
 
 double Reading::value(const Spectrum& s) const {
@@ -16,9 +18,17 @@ double Reading::error(const Spectrum& s) const {
   return sum;
 }
 
+Noise Reading::noise(const Estimate& e) const {
+  int channels = 0;
+  for (int c = 0; c < Spectrum::capacity; ++c) channels += weights[c] != 0 ? 1 : 0;
+  const bool something = value(e.value) != 0;
+  if (channels > 1 && of_scene && std::isfinite(e.weighed_standard_error)) return {e.weighed_standard_error, something};
+  return {error(e.standard_error), channels <= 1 && something};
+}
+
 std::vector<Reading> readings_of(const scene::Scene& scene) {
   const bool photometric = scene.quantity == scene::Quantity::photometric;
-  std::vector<Reading> readings{{photometric ? "illuminance" : "irradiance", scene.weights}};
+  std::vector<Reading> readings{{photometric ? "illuminance" : "irradiance", scene.weights, true}};
   if (scene.channel_count() > 1)
     for (int c = 0; c < scene.channel_count(); ++c) {
       Spectrum one;

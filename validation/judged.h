@@ -25,16 +25,25 @@ struct Judged {
   double represented_area() const { return weight > 0 ? weight : area; }
 };
 
+/// Of a number read from an estimate.
+struct Noise {
+  double standard_error;
+  bool exact;  ///< it is the standard error; else only an upper bound of it, which must not be subtracted from anything
+};
+
 /// One number from a spectrum, sum_c weights[c] value[c]: what is compared.
-///
-/// Errors follow by the triangle inequality, sum_c |weights[c]| error[c]: exact for one channel and for channels that
-/// are fully correlated (paths carry all channels at once), else an upper bound.
 struct Reading {
   std::string name;
   Spectrum weights;
+  bool of_scene = false;  ///< the weights are the scene's: Estimate::weighed_standard_error is of this reading
 
   double value(const Spectrum& s) const;
-  double error(const Spectrum& s) const;  ///< a channel of weight 0 counts nothing, even if it is infinite
+  /// By the triangle inequality sum_c |weights[c]| error[c], an upper bound; a channel of weight 0 counts nothing, even
+  /// if it is infinite.
+  double error(const Spectrum& s) const;
+  /// Exact for a single channel, and for the scene's weighted value where the method measured its noise; else the upper
+  /// bound.  Where nothing was found (value 0) the "standard error" is a bound too, by the rule of three.
+  Noise noise(const Estimate& e) const;
 };
 
 /// The weighted value ("illuminance" or "irradiance"), and each channel where there is more than one.

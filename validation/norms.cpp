@@ -14,15 +14,19 @@ namespace interflect::validation {
 
 namespace {
 
-const double z_95 = 1.959963984540054;  // Phi^-1(0.975)
-
 struct Term {
   const Judged* judged;
   double a;     ///< area represented
   double d, H;  ///< FEM - MC, MC
-  double se, se_mc, bound;
-  double square() const { return d * d - se * se; }                               ///< unbiased for (FEM - H)²
-  double noise_of_square() const { return se * se * (4 * d * d - 2 * se * se); }  ///< unbiased for its variance
+  Noise mc;     ///< of the reference
+  double bound;
+
+  double variance() const { return mc.standard_error * mc.standard_error; }
+  double known_variance() const { return mc.exact ? variance() : 0; }
+  /// Unbiased for (FEM - H)², or too large.
+  double square() const { return d * d - known_variance(); }
+  /// Unbiased for the variance of d², or too large: 4 bias² s² + 2 s⁴ <= E[4 d² S²] for s <= S.
+  double noise_of_square() const { return 4 * d * d * variance() - 2 * known_variance() * known_variance(); }
 };
 
 std::vector<Term> terms_of(std::span<const Judged> judged, const Reading& reading,
@@ -31,9 +35,8 @@ std::vector<Term> terms_of(std::span<const Judged> judged, const Reading& readin
   for (const Judged& j : judged) {
     if (!counts(j)) continue;
     const Difference d = difference(j, reading);
-    const double se_mc = reading.error(j.mc.standard_error);
     if (std::isfinite(d.fem) && std::isfinite(d.mc) && std::isfinite(d.standard_error))
-      terms.push_back({&j, j.represented_area(), d.difference(), d.mc, d.standard_error, se_mc, d.bound});
+      terms.push_back({&j, j.represented_area(), d.difference(), d.mc, reading.noise(j.mc), d.bound});
   }
   return terms;
 }
@@ -82,33 +85,45 @@ double choice_variance(const std::vector<Term>& terms, Y y, V v) {
 
 double ratio(double part, double whole) {
   if (whole > 0) return part / whole;
-  return part > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  return part == 0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), part);
 }
 
 double root_ratio(double part, double whole) { return std::sqrt(ratio(std::max(0.0, part), whole)); }
 
 Interval l2_norm(const std::vector<Term>& terms, double light) {
   const double sum = total(terms, [](const Term& t) { return t.a * t.square(); });
-  const double least = total(terms, [](const Term& t) { return 2 * t.a * t.a * std::pow(t.se, 4); });
+  const double lowest = total(terms, [](const Term& t) { return t.a * (t.d * t.d - t.variance()); });
+  const double least = total(terms, [](const Term& t) { return 2 * t.a * t.a * t.variance() * t.variance(); });
   const double noise = std::max(least, total(terms, [](const Term& t) { return t.a * t.a * t.noise_of_square(); }));
   const double choice = choice_variance(
-      terms, [](const Term& t) { return t.square(); }, [](const Term& t) { return t.noise_of_square(); });
-  const double reach = z_95 * std::sqrt(noise + choice);
-  return {root_ratio(sum, light), root_ratio(sum - reach, light), root_ratio(sum + reach, light)};
+      terms, [](const Term& t) { return t.square(); },
+      [](const Term& t) { return t.mc.exact ? t.noise_of_square() : 0; });
+  const double reach = normal_95 * std::sqrt(noise + choice);
+  return {root_ratio(sum, light), root_ratio(lowest - reach, light), root_ratio(sum + reach, light)};
 }
 
 Interval l1_norm(const std::vector<Term>& terms, double light) {
   const double sum = total(terms, [](const Term& t) { return t.a * std::abs(t.d); });
   const double square = total(terms, [](const Term& t) { return t.a * t.square(); });
   const double raw_square = total(terms, [](const Term& t) { return t.a * t.d * t.d; });
-  const double folded = std::sqrt(2 / pi) * total(terms, [](const Term& t) { return t.a * t.se; });
-  const double noise = total(terms, [](const Term& t) { return t.a * t.a * t.se * t.se; });
+  const double folded = std::sqrt(2 / pi) * total(terms, [](const Term& t) { return t.a * t.mc.standard_error; });
+  const double noise = total(terms, [](const Term& t) { return t.a * t.a * t.variance(); });
   const double choice = choice_variance(
-      terms, [](const Term& t) { return std::abs(t.d); }, [](const Term& t) { return (1 - 2 / pi) * t.se * t.se; });
-  const double reach = z_95 * std::sqrt(noise + choice);
+      terms, [](const Term& t) { return std::abs(t.d); },
+      [](const Term& t) { return (1 - 2 / pi) * t.known_variance(); });
+  const double reach = normal_95 * std::sqrt(noise + choice);
   const double low = std::max(0.0, sum - folded - reach), high = sum + reach;
   const double value = std::clamp(sum * root_ratio(square, raw_square), low, high);
   return {ratio(value, light), ratio(low, light), ratio(high, light)};
+}
+
+Interval bias_of(const std::vector<Term>& terms, double light) {
+  const double sum = total(terms, [](const Term& t) { return t.a * t.d; });
+  const double noise = total(terms, [](const Term& t) { return t.a * t.a * t.variance(); });
+  const double choice = choice_variance(
+      terms, [](const Term& t) { return t.d; }, [](const Term& t) { return t.known_variance(); });
+  const double reach = normal_95 * std::sqrt(noise + choice);
+  return {ratio(sum, light), ratio(sum - reach, light), ratio(sum + reach, light)};
 }
 
 Interval maximum_norm(const std::vector<Term>& terms, double mean, std::string& worst) {
@@ -117,8 +132,8 @@ Interval maximum_norm(const std::vector<Term>& terms, double mean, std::string& 
   for (const Term& t : terms) {
     if (worst.empty() || std::abs(t.d) > largest.value) worst = t.judged->name;
     largest.value = std::max(largest.value, std::abs(t.d));
-    largest.low = std::max(largest.low, std::abs(t.d) - z * t.se);
-    largest.high = std::max(largest.high, std::abs(t.d) + z * t.se);
+    largest.low = std::max(largest.low, std::abs(t.d) - z * t.mc.standard_error);
+    largest.high = std::max(largest.high, std::abs(t.d) + z * t.mc.standard_error);
   }
   return {ratio(largest.value, mean), ratio(largest.low, mean), ratio(largest.high, mean)};
 }
@@ -132,15 +147,16 @@ Norms error_norms(std::span<const Judged> judged, const Reading& reading,
   norms.measurements = terms.size();
   if (terms.empty()) return norms;
   const double light = total(terms, [](const Term& t) { return t.a * std::abs(t.H); });
-  const double square =
-      std::max(0.0, total(terms, [](const Term& t) { return t.a * (t.H * t.H - t.se_mc * t.se_mc); }));
+  // In a denominator an upper bound of the noise is on the safe side.
+  const double square = std::max(0.0, total(terms, [](const Term& t) { return t.a * (t.H * t.H - t.variance()); }));
   norms.area = total(terms, [](const Term& t) { return t.a; });
   norms.mean_irradiance = ratio(total(terms, [](const Term& t) { return t.a * t.H; }), norms.area);
   norms.l1 = l1_norm(terms, light);
   norms.l2 = l2_norm(terms, square);
+  norms.bias = bias_of(terms, light);
   norms.max = maximum_norm(terms, ratio(light, norms.area), norms.worst);
-  const double noise = total(terms, [](const Term& t) { return t.a * t.se_mc * t.se_mc; });
-  const double spread = total(terms, [](const Term& t) { return 2 * t.a * t.a * std::pow(t.se_mc, 4); });
+  const double noise = total(terms, [](const Term& t) { return t.a * t.variance(); });
+  const double spread = total(terms, [](const Term& t) { return 2 * t.a * t.a * t.variance() * t.variance(); });
   norms.reference_error = root_ratio(sum_of_squares_quantile(noise, spread, 0.95), square);
   norms.claimed_error = root_ratio(total(terms, [](const Term& t) { return t.a * t.bound * t.bound; }), square);
   return norms;

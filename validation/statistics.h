@@ -19,20 +19,6 @@ double normal_quantile(double p);
 /// exp(-x²/2) / 2 gives the start sqrt(-2 log 2q).  For 1e-300 <= q < 1.
 double normal_upper_quantile(double q);
 
-/// Distribution of Student's t with nu degrees of freedom: exact finite sums, with cos² theta = nu / (nu + t²),
-///
-///   2 F(t) - 1 = sin theta (1 + 1/2 cos² theta + 1·3/(2·4) cos⁴ theta + ..)                 nu even
-///              = 2/pi (theta + sin theta (cos theta + 2/3 cos³ theta + ..))                 nu odd
-///
-/// All terms have one sign; accuracy about 1e-14 absolute.  Above 10 000 degrees of freedom: normal, of t corrected to
-/// second order in 1/nu (error below 1e-10).
-/// Source: [Abramowitz and Stegun 1964], 26.7.3 and 26.7.4.
-double student_t_cdf(double t, std::size_t degrees);
-
-/// t with F(t) = p, for 1e-9 <= p <= 1 - 1e-9; about 1e-12 relative where 1 - p >= 1e-3.  Its table of 0.975: 2.364624
-/// (nu = 7), 2.131450 (15), 2.039513 (31), 1.998341 (63).
-double student_t_quantile(double p, std::size_t degrees);
-
 /// Upper p-quantile of a sum of squares of independent normal numbers, from its mean and variance, as of a scaled chi
 /// square with 2 mean² / variance degrees of freedom [Patnaik 1949], by the cube root of Wilson and Hilferty [1931];
 /// within 3 % at p = 0.95.

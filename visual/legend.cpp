@@ -10,9 +10,9 @@ namespace interflect::visual {
 
 namespace {
 
-constexpr Colour ink{45, 45, 45}, faint{150, 150, 150};
+constexpr results::Colour ink{45, 45, 45}, faint{150, 150, 150};
 
-void fill(core::Image& picture, int left, int top, int width, int height, Colour colour) {
+void fill(core::Image& picture, int left, int top, int width, int height, results::Colour colour) {
   for (int y = std::max(0, top); y < std::min(picture.height, top + height); ++y)
     for (int x = std::max(0, left); x < std::min(picture.width, left + width); ++x)
       for (int c = 0; c < 3; ++c)
@@ -51,7 +51,8 @@ Measured measured(const Legend& legend, int size) {
 void draw_bar(core::Image& canvas, const Legend& legend, const Measured& m, int left, int top, int height, int size) {
   const int line = std::max(1, size / 16);
   fill(canvas, left - line, top - line, m.bar + 2 * line, height + 2 * line, faint);
-  for (int y = 0; y < height; ++y) fill(canvas, left, top + y, m.bar, 1, colour_of(legend.map, 1 - (y + 0.5) / height));
+  for (int y = 0; y < height; ++y)
+    fill(canvas, left, top + y, m.bar, 1, results::colour_of(legend.map, 1 - (y + 0.5) / height));
   for (const Measured::Tick& tick : m.ticks) {
     const int y = top + static_cast<int>(std::lround((1 - tick.part) * (height - 1)));
     fill(canvas, left + m.bar, y - line / 2, size / 3, line, faint);
@@ -69,7 +70,8 @@ core::Image framed(const core::Image& picture, const std::string& caption, const
   const int gap = (2 * size) / 3;
   const int strip = legend != nullptr ? margin + m.width(gap) : 0;
 
-  core::Image canvas(margin + picture.width + strip + margin, head + picture.height + margin, {"R", "G", "B"});
+  const int width = margin + std::max(picture.width + strip, title.width) + margin;
+  core::Image canvas(width, head + picture.height + margin, {"R", "G", "B"});
   std::fill(canvas.data.begin(), canvas.data.end(), 1.0F);
   for (int y = 0; y < picture.height; ++y)
     std::copy_n(picture.data.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)),

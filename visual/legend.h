@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/image.h"
-#include "visual/colour_map.h"
+#include "results/colour_map.h"
 #include "visual/scale.h"
 
 namespace interflect::visual {
@@ -11,14 +11,14 @@ namespace interflect::visual {
 /// What the colours of a picture mean.
 struct Legend {
   std::string title;  ///< "irradiance [lx]"
-  ColourMap map = ColourMap::plasma;
+  results::ColourMap map = results::ColourMap::plasma;
   Range range;
   bool open_above = false;  ///< values above the range exist: its end is labelled "500+"
   bool open_below = false;
 };
 
-/// The picture with a white margin, a caption over it (if not empty) and a legend at its right.  The picture itself
-/// keeps its pixels; `left` and `top` say where it went, if asked.
+/// The picture with a white margin, a caption over it (if not empty) and a legend at its right; wide enough for the
+/// caption.  The picture itself keeps its pixels; `left` and `top` say where it went, if asked.
 core::Image framed(const core::Image& picture, const std::string& caption, const Legend* legend, int* left = nullptr,
                    int* top = nullptr);
 

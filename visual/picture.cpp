@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "results/image_file.h"
 #include "results/tone_mapping.h"
 #include "visual/legend.h"
 #include "visual/raster.h"
@@ -15,7 +14,7 @@ namespace interflect::visual {
 
 namespace {
 
-constexpr Colour white{255, 255, 255}, black{0, 0, 0}, dark_back{70, 70, 70};
+constexpr results::Colour white{255, 255, 255}, black{0, 0, 0}, dark_back{70, 70, 70};
 
 std::vector<double> areas_of(const mesh::ElementMesh& mesh) {
   std::vector<double> areas;
@@ -41,7 +40,8 @@ std::string with_squares(std::string text) {
 
 /// Where one looks from, and what is behind everything.
 void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh& mesh,
-              const std::optional<scene::Camera>& camera, int width, int height, Colour backs, Colour behind) {
+              const std::optional<scene::Camera>& camera, int width, int height, results::Colour backs,
+              results::Colour behind) {
   raster.camera = camera ? *camera : outside_view(scene, width, height);
   raster.background = camera ? behind : white;
   if (camera) append(raster.fronts, black_backs(scene, mesh, backs));
@@ -52,13 +52,13 @@ void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh
 core::Image false_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
                          std::span<const double> values, const FalseColour& options) {
   require_size(values.size(), mesh);
-  const bool diverging = options.map == ColourMap::blue_white_red;
+  const bool diverging = options.map == results::ColourMap::blue_white_red;
   Legend legend{with_squares(options.title), options.map, {}, false, false};
   legend.range = options.range ? *options.range : range_of(values, areas_of(mesh), diverging);
   if (!(legend.range.high > legend.range.low)) throw core::PreconditionError("picture: an ascending range expected");
-  std::vector<Colour> colours;
+  std::vector<results::Colour> colours;
   for (double v : values) {
-    colours.push_back(colour_of(options.map, legend.range.part(v)));
+    colours.push_back(results::colour_of(options.map, legend.range.part(v)));
     legend.open_above = legend.open_above || v > legend.range.high;
     legend.open_below = legend.open_below || v < legend.range.low;
   }
@@ -83,25 +83,13 @@ core::Image true_colour(const Display& display, const scene::Scene& scene, const
   if (options.smooth) {
     raster.fronts = smooth(mesh, rgb, bright);
   } else {
-    std::vector<Colour> colours;
+    std::vector<results::Colour> colours;
     for (const auto& colour : rgb) colours.push_back(display_colour(colour, bright));
     raster.fronts = flat(mesh, colours);
   }
   set_view(raster, scene, mesh, options.camera, options.width, options.height, black, black);
   const core::Image picture = rasterised(display, raster);
   return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
-}
-
-void write_false_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
-                        std::span<const double> values, const FalseColour& options) {
-  const Display display;
-  results::write_png(file, false_colour(display, scene, mesh, values, options));
-}
-
-void write_true_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
-                       std::span<const std::array<double, 3>> rgb, const TrueColour& options) {
-  const Display display;
-  results::write_png(file, true_colour(display, scene, mesh, rgb, options));
 }
 
 }  // namespace interflect::visual

@@ -1,15 +1,14 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "core/image.h"
 #include "mesh/element_mesh.h"
+#include "results/colour_map.h"
 #include "scene/scene.h"
-#include "visual/colour_map.h"
 #include "visual/display.h"
 #include "visual/scale.h"
 
@@ -23,9 +22,9 @@ namespace interflect::visual {
 struct FalseColour {
   std::string title;    ///< of the legend, with the unit: "irradiance [lx]" ("m2" is set as m²)
   std::string caption;  ///< over the picture
-  ColourMap map = ColourMap::plasma;
-  std::optional<Range> range =
-      {};  ///< default: 0 to the 99th percentile by area, rounded up; symmetric for blue_white_red
+  results::ColourMap map = results::ColourMap::plasma;
+  /// Default: 0 to the 99th percentile by area, rounded up; symmetric for blue_white_red.
+  std::optional<Range> range = {};
   std::optional<scene::Camera> camera = {};
   int width = 1200, height = 900;  ///< of the view from outside [pixels]; a camera has its own
   bool edges = false;              ///< of the elements
@@ -47,12 +46,5 @@ struct TrueColour {
 /// @param rgb  linear red, green, blue per element, for instance scene.rgb(radiosity / pi)
 core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
                         std::span<const std::array<double, 3>> rgb, const TrueColour& options);
-
-/// The same as PNG files, on a display that exists for this picture alone.
-/// @throws core::InputError  without a display, or if the file cannot be written
-void write_false_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
-                        std::span<const double> values, const FalseColour& options);
-void write_true_colour(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
-                       std::span<const std::array<double, 3>> rgb, const TrueColour& options);
 
 }  // namespace interflect::visual

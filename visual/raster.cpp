@@ -46,7 +46,7 @@ vtkNew<vtkPolyData> poly_data(const Polygons& polygons, const Frame& frame) {
     cells->InsertNextCell(size);
     for (int k = 0; k < size; ++k, ++next) {
       const Vec3 p = frame(polygons.corners[static_cast<std::size_t>(next)]);
-      const Colour& colour = polygons.colours[static_cast<std::size_t>(next)];
+      const results::Colour& colour = polygons.colours[static_cast<std::size_t>(next)];
       points->InsertNextPoint(p.data());
       colours->InsertNextTypedTuple(colour.data());
       cells->InsertCellPoint(next);

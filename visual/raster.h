@@ -11,7 +11,7 @@ namespace interflect::visual {
 struct Raster {
   Polygons fronts;     ///< seen from the side around which their corners run counter-clockwise
   bool edges = false;  ///< drawn over them, a quarter dark
-  Colour background{255, 255, 255};
+  results::Colour background{255, 255, 255};
   scene::Camera camera;  ///< pixels as in scene::Camera
 };
 

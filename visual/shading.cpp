@@ -107,24 +107,24 @@ Rgb mean_of(std::span<const Rgb> values) {
 
 }  // namespace
 
-void Polygons::add(std::span<const Vec3> ring, std::span<const Colour> ring_colours) {
+void Polygons::add(std::span<const Vec3> ring, std::span<const results::Colour> ring_colours) {
   corners.insert(corners.end(), ring.begin(), ring.end());
   colours.insert(colours.end(), ring_colours.begin(), ring_colours.end());
   sizes.push_back(static_cast<std::uint8_t>(ring.size()));
 }
 
-Polygons flat(const mesh::ElementMesh& mesh, std::span<const Colour> colours) {
+Polygons flat(const mesh::ElementMesh& mesh, std::span<const results::Colour> colours) {
   Polygons out;
   for (std::size_t e = 0; e < colours.size(); ++e) {
-    const std::array<Colour, 4> same{colours[e], colours[e], colours[e], colours[e]};
+    const std::array<results::Colour, 4> same{colours[e], colours[e], colours[e], colours[e]};
     const auto ring = mesh.patches()[e].ring();
     out.add(ring, std::span(same).first(ring.size()));
   }
   return out;
 }
 
-Colour display_colour(const Rgb& value, double white) {
-  Colour out;
+results::Colour display_colour(const Rgb& value, double white) {
+  results::Colour out;
   for (std::size_t c = 0; c < 3; ++c)
     out[c] = static_cast<std::uint8_t>(std::lround(255 * results::srgb_encoded(value[c] / white)));
   return out;
@@ -139,7 +139,7 @@ Polygons smooth(const mesh::ElementMesh& mesh, std::span<const Rgb> values, doub
       const auto ring = patch.ring();
       std::array<Rgb, 4> rim;
       for (std::size_t k = 0; k < ring.size(); ++k) rim[k] = fits.mean_at(ring[k], e);
-      const Colour centre = display_colour(mean_of(std::span(rim).first(ring.size())), white);
+      const results::Colour centre = display_colour(mean_of(std::span(rim).first(ring.size())), white);
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const std::size_t next = (k + 1) % ring.size();
         out.add(std::array{ring[k], ring[next], patch.centroid()},
@@ -150,9 +150,9 @@ Polygons smooth(const mesh::ElementMesh& mesh, std::span<const Rgb> values, doub
   return out;
 }
 
-Polygons black_backs(const scene::Scene& scene, const mesh::ElementMesh& mesh, Colour colour) {
+Polygons black_backs(const scene::Scene& scene, const mesh::ElementMesh& mesh, results::Colour colour) {
   Polygons out;
-  const std::array<Colour, 4> same{colour, colour, colour, colour};
+  const std::array<results::Colour, 4> same{colour, colour, colour, colour};
   for (const scene::SurfacePatch& patch : mesh.patches()) {
     if (scene.material(patch.surface).active(scene::Side::back)) continue;
     std::array<Vec3, 4> turned;

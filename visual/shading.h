@@ -6,21 +6,21 @@
 
 #include "core/vec.h"
 #include "mesh/element_mesh.h"
+#include "results/colour_map.h"
 #include "scene/scene.h"
-#include "visual/colour_map.h"
 
 namespace interflect::visual {
 
 /// Polygons with colours at their corners: what is drawn.
 struct Polygons {
-  std::vector<Vec3> corners;        ///< polygon after polygon [m]
-  std::vector<std::uint8_t> sizes;  ///< corners of each: 3 or 4
-  std::vector<Colour> colours;      ///< one a corner
-  void add(std::span<const Vec3> ring, std::span<const Colour> ring_colours);
+  std::vector<Vec3> corners;             ///< polygon after polygon [m]
+  std::vector<std::uint8_t> sizes;       ///< corners of each: 3 or 4
+  std::vector<results::Colour> colours;  ///< one a corner
+  void add(std::span<const Vec3> ring, std::span<const results::Colour> ring_colours);
 };
 
 /// Every element in one colour.
-Polygons flat(const mesh::ElementMesh& mesh, std::span<const Colour> colours);
+Polygons flat(const mesh::ElementMesh& mesh, std::span<const results::Colour> colours);
 
 /// Linear red, green, blue over an element.
 using Rgb = std::array<double, 3>;
@@ -32,9 +32,9 @@ using Rgb = std::array<double, 3>;
 Polygons smooth(const mesh::ElementMesh& mesh, std::span<const Rgb> values, double white);
 
 /// sRGB of `value` / white, clipped.
-Colour display_colour(const Rgb& value, double white);
+results::Colour display_colour(const Rgb& value, double white);
 
 /// The backs of elements that have no element of their own on the other side, in one colour.
-Polygons black_backs(const scene::Scene& scene, const mesh::ElementMesh& mesh, Colour colour);
+Polygons black_backs(const scene::Scene& scene, const mesh::ElementMesh& mesh, results::Colour colour);
 
 }  // namespace interflect::visual

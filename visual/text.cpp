@@ -64,7 +64,7 @@ TextLine set_in_type(const std::string& text, int size, bool bold) {
   return line;
 }
 
-void draw_text(core::Image& picture, const TextLine& line, int x, int base, Colour colour) {
+void draw_text(core::Image& picture, const TextLine& line, int x, int base, results::Colour colour) {
   for (int row = 0; row < line.height; ++row)
     for (int column = 0; column < line.width; ++column) {
       const int at_x = x + column, at_y = base - line.ascent + row;

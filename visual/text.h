@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/image.h"
-#include "visual/colour_map.h"
+#include "results/colour_map.h"
 
 namespace interflect::visual {
 
@@ -23,6 +23,6 @@ TextLine set_in_type(const std::string& text, int size, bool bold = false);
 /// Draws it on a picture of three channels, clipped at its border.
 /// @param x     left of the line
 /// @param base  row of the base line
-void draw_text(core::Image& picture, const TextLine& line, int x, int base, Colour colour);
+void draw_text(core::Image& picture, const TextLine& line, int x, int base, results::Colour colour);
 
 }  // namespace interflect::visual

@@ -16,8 +16,9 @@ scene::Camera outside_view(const scene::Scene& scene, int width, int height) {
   const Vec3 centre = 0.5 * (box.min() + box.max());
   const Vec3 image_x = up.cross(from).normalized(), image_y = from.cross(image_x);
   const double tan_y = std::tan(0.5 * fov_deg * pi / 180), tan_x = tan_y * width / height;
-  // Each side of the picture asks of each corner q: +-(q - target) . image / tan <= (distance - (q - target) . from) /
-  // margin. Moving the target sideways until opposite sides ask for the same distance centres the box.
+  // Each side of the picture asks of each corner q:
+  //   +-(q - target) . image / tan <= (distance - (q - target) . from) / margin.
+  // Moving the target sideways until opposite sides ask for the same distance centres the box.
   Vec3 target = centre;
   double distance = 0;
   for (int pass = 0; pass < 20; ++pass) {

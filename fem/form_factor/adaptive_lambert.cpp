@@ -6,6 +6,7 @@
 
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/quadrature.h"
+#include "scene/place.h"
 
 namespace interflect::fem {
 
@@ -24,31 +25,19 @@ struct Cell {
   friend bool operator<(const Cell& a, const Cell& b) { return a.error < b.error; }
 };
 
-std::array<Cell, 4> quarters(const Cell& c) {
-  const auto mid = [&](std::size_t a, std::size_t b) -> Vec3 { return 0.5 * (c.corner[a] + c.corner[b]); };
-  const auto& p = c.corner;
-  if (c.corners == 3) {
-    const Vec3 ab = mid(0, 1), bc = mid(1, 2), ca = mid(2, 0);
-    return {Cell{{p[0], ab, ca}, 3}, Cell{{ab, p[1], bc}, 3}, Cell{{ca, bc, p[2]}, 3}, Cell{{ab, bc, ca}, 3}};
-  }
-  const Vec3 ab = mid(0, 1), bc = mid(1, 2), cd = mid(2, 3), da = mid(3, 0), centre = 0.5 * (ab + cd);
-  return {Cell{{p[0], ab, centre, da}, 4}, Cell{{ab, p[1], bc, centre}, 4}, Cell{{centre, bc, p[2], cd}, 4},
-          Cell{{da, centre, cd, p[3]}, 4}};
-}
-
 class Refinement {
  public:
   Refinement(const Vec3& normal, std::span<const Vec3> inner) : normal_(normal), inner_(inner) {}
 
-  void add(Cell cell) { add(cell, by_rule(cell)); }
+  void add(const Cell& cell) { add(cell, by_rule(cell.ring())); }
   void cut_worst() {
     std::pop_heap(cells_.begin(), cells_.end());
     const Cell worst = cells_.back();
     cells_.pop_back();
     value_ -= worst.refined;
     error_ -= worst.error;
-    const auto parts = quarters(worst);
-    for (std::size_t k = 0; k < 4; ++k) add(parts[k], worst.quarter_value[k]);
+    const auto parts = scene::quarters_of(worst.ring());
+    for (std::size_t k = 0; k < 4; ++k) add({parts[k], worst.corners}, worst.quarter_value[k]);
   }
   bool within(double tolerance) const { return error_ <= tolerance * value_ || value_ <= 0.0; }
   std::size_t cells() const { return cells_.size(); }
@@ -62,17 +51,17 @@ class Refinement {
 
  private:
   void add(Cell cell, double value) {
-    const auto parts = quarters(cell);
-    for (std::size_t k = 0; k < 4; ++k) cell.refined += cell.quarter_value[k] = by_rule(parts[k]);
+    for (std::size_t k = 0; const auto& part : scene::quarters_of(cell.ring()))
+      cell.refined += cell.quarter_value[k++] = by_rule({part.data(), cell.corners});
     cell.error = std::abs(cell.refined - value);
     value_ += cell.refined;
     error_ += cell.error;
     cells_.push_back(cell);
     std::push_heap(cells_.begin(), cells_.end());
   }
-  double by_rule(const Cell& cell) {
+  double by_rule(std::span<const Vec3> cell) {
     nodes_.clear();
-    append_nodes(cell.ring(), rules_.of(cell.corners), nodes_);
+    append_nodes(cell, rules_.of(cell.size()), nodes_);
     double sum = 0.0;
     for (const SurfaceNode& node : nodes_)
       sum += node.weight * point_to_polygon_above_horizon(node.position, normal_, inner_);

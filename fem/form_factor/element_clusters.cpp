@@ -10,10 +10,10 @@ namespace {
 using Elements = std::vector<Index>;
 constexpr std::size_t fewest_in_a_plane = 8;
 
-bool same_plane(const ElementShape& a, const ElementShape& b, double tolerance) {
+bool same_plane(const ElementShapes& shapes, const ElementShape& a, const ElementShape& b) {
   if (a.plane.normal.dot(b.plane.normal) < 0.99) return false;
   for (const Vec3& p : b.ring())
-    if (std::abs(a.plane.distance(p)) > tolerance) return false;
+    if (std::abs(a.plane.distance(p)) > shapes.height_tolerance(a, p)) return false;
   return true;
 }
 
@@ -27,7 +27,7 @@ std::vector<Elements> by_plane(const Elements& elements, const ElementShapes& sh
     // Neighbours in the list are mostly neighbours in space: the latest planes are tried, not all of a curved surface's.
     searched = open.size() > 16 ? open.size() - 16 : 0;
     auto found = std::find_if(open.begin() + static_cast<Index>(searched), open.end(), [&](const Elements& plane) {
-      return same_plane(shapes[plane.front()], shapes[e], shapes.plane_tolerance());
+      return same_plane(shapes, shapes[plane.front()], shapes[e]);
     });
     if (found == open.end()) found = open.insert(open.end(), Elements{});
     found->push_back(e);
@@ -48,7 +48,7 @@ std::optional<std::array<Vec3, 4>> rectangle_of(const Elements& elements, const 
   const Vec3 across = normal.cross(along), origin = first.corner[0];
   Eigen::AlignedBox2d box;
   for (const Index e : elements) {
-    if (!same_plane(first, shapes[e], shapes.plane_tolerance())) return std::nullopt;
+    if (!same_plane(shapes, first, shapes[e])) return std::nullopt;
     for (const Vec3& p : shapes[e].ring()) box.extend(Vec2(along.dot(p - origin), across.dot(p - origin)));
   }
   const auto at = [&](double u, double v) -> Vec3 { return origin + u * along + v * across; };

@@ -14,8 +14,8 @@ namespace interflect::fem {
 /// Elements of one side of one surface that lie close together, so that one proof of visibility may serve all their pairs.
 struct ElementCluster {
   std::vector<Index> elements;  ///< ascending
-  std::optional<std::array<Vec3, 4>>
-      rectangle;  ///< that holds them, where they lie in one plane; relative to the shapes' origin
+  /// That holds them, where they lie in one plane; relative to the shapes' origin.
+  std::optional<std::array<Vec3, 4>> rectangle;
 };
 
 /// All elements in compact clusters of at most `largest`: by (surface, side), then by plane where eight or more share one,

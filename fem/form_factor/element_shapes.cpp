@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/error.h"
 #include "fem/quadrature.h"
 
 namespace interflect::fem {
@@ -57,9 +58,11 @@ ElementShapes::ElementShapes(std::span<const scene::SurfacePatch> patches)
   if (patches.empty()) return;
   origin_ = box.center();
   const double coordinates = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  plane_tolerance_ = 1e-11 * box.diagonal().norm() + 8 * std::numeric_limits<double>::epsilon() * coordinates;
+  corner_rounding_ = 8 * std::numeric_limits<double>::epsilon() * coordinates;
+  plane_tolerance_ = 1e-11 * box.diagonal().norm() + corner_rounding_;
   for (int level = 0; level < levels; ++level) rules_[static_cast<std::size_t>(level)] = rules_of(level + 1);
   for (const auto& patch : patches) {
+    if (!(patch.area > 0)) throw core::PreconditionError("ElementShapes: an element without area");
     std::array<Vec3, 4> ring;
     for (std::size_t k = 0; k < patch.corners; ++k) ring[k] = patch.corner[k] - origin_;
     const Vec3 normal = patch.normal();

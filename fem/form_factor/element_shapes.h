@@ -51,13 +51,19 @@ class ElementShapes {
  public:
   static constexpr int levels = 4;  ///< level l: rules_of(l + 1)
 
+  /// @throws core::PreconditionError  where an element has no area
   explicit ElementShapes(std::span<const scene::SurfacePatch> patches);
 
   const ElementShape& operator[](Index element) const { return shapes_[static_cast<std::size_t>(element)]; }
   NodeArrays nodes(Index element, int level) const;
   const Vec3& origin() const { return origin_; }
-  /// Distances from planes below this are rounding [m].
+  /// Distances from planes below this are rounding, near the elements that the planes are taken from [m].
   double plane_tolerance() const { return plane_tolerance_; }
+  /// Heights over an element's plane below this are rounding, at a point that may be far from it [m]: the plane goes through
+  /// rounded corners, and so it is tilted by their rounding over the element's width, area / radius or more.
+  double height_tolerance(const ElementShape& of, const Vec3& at) const {
+    return plane_tolerance_ + corner_rounding_ * (at - of.centroid).norm() * of.radius / of.area;
+  }
   const RulePair& rules(int level) const { return rules_[static_cast<std::size_t>(level)]; }
 
  private:
@@ -65,7 +71,7 @@ class ElementShapes {
   static constexpr int stride_ = 160;
 
   Vec3 origin_ = Vec3::Zero();
-  double plane_tolerance_ = 0;
+  double plane_tolerance_ = 0, corner_rounding_ = 0;
   std::array<RulePair, levels> rules_;
   std::vector<ElementShape> shapes_;
   std::vector<double> nodes_;  ///< per element and level: x[], y[], z[], weight[]

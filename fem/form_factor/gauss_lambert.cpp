@@ -1,7 +1,6 @@
 #include "fem/form_factor/gauss_lambert.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace interflect::fem {
@@ -12,6 +11,29 @@ class GaussLambert::ClusterPair {
   ClusterPair(const GaussLambert& method, const ElementCluster& a, const ElementCluster& b)
       : method_(method), a_(a), b_(b) {}
 
+  void exchange(Index i, Index j, ExchangeSink& sink, VisibilitySampler::Workspace& workspace, PairCounts& counts) {
+    const PairIntegral unoccluded = method_.integrate_(i, j);
+    if (unoccluded.facing == Facing::away) {
+      ++counts.facing_away;
+      return;
+    }
+    const ElementShapes& shapes = method_.integrate_.shapes();
+    const double smaller = std::min(shapes[i].area, shapes[j].area), value = std::clamp(unoccluded.value, 0.0, smaller);
+    counts.clamped += value != unoccluded.value;
+    if (proved_clear(i, j)) {
+      ++counts.clear;
+      sink.add(i, j, {value, 0, unoccluded.error});
+      return;
+    }
+    const SampledVisibility v = method_.visibility_(i, j, effort_for(value / smaller), workspace);
+    ++counts.sampled;
+    counts.rays += static_cast<std::uint64_t>(v.rays);
+    sink.add(i, j, {value * v.visible, value * v.standard_error, unoccluded.error});
+  }
+
+ private:
+  static constexpr std::size_t longest_list = 128;  ///< beyond, a pair finds its own through the tree
+
   bool proved_clear(Index i, Index j) {
     if (!candidates_) find_candidates();
     if (planar_ && candidates_->empty()) return true;
@@ -19,10 +41,6 @@ class GaussLambert::ClusterPair {
     const geometry::Shaft shaft(shapes[i].ring(), shapes[j].ring());
     return planar_ ? !method_.blockers_.any(shaft, *candidates_) : !method_.blockers_.any(shaft);
   }
-
- private:
-  static constexpr std::size_t longest_list = 128;  ///< beyond, a pair finds its own through the tree
-
   void find_candidates() {
     candidates_.emplace();
     planar_ = a_.rectangle && b_.rectangle;
@@ -52,25 +70,6 @@ PairCounts GaussLambert::exchange(const ElementBlock& rows, const ElementBlock& 
     const auto begin = std::lower_bound(cluster.elements.begin(), cluster.elements.end(), block.first);
     return std::span(begin, std::lower_bound(begin, cluster.elements.end(), block.first + block.count));
   };
-  const auto pair = [&](ClusterPair& between, Index i, Index j) {
-    const PairIntegral unoccluded = integrate_(i, j);
-    if (unoccluded.facing == Facing::away) {
-      ++counts.facing_away;
-      return;
-    }
-    const double smaller = std::min(integrate_.shapes()[i].area, integrate_.shapes()[j].area);
-    const double value = std::clamp(unoccluded.value, 0.0, smaller);
-    counts.clamped += value != unoccluded.value;
-    if (between.proved_clear(i, j)) {
-      ++counts.clear;
-      sink.add(i, j, value, unoccluded.error);
-      return;
-    }
-    const SampledVisibility v = visibility_(i, j, effort_for(value / smaller), workspace);
-    ++counts.sampled;
-    counts.rays += static_cast<std::uint64_t>(v.rays);
-    sink.add(i, j, value * v.visible, std::hypot(unoccluded.error, value * v.standard_error));
-  };
   for (const ElementCluster& a : clusters_) {
     const auto of_rows = within(rows, a);
     if (of_rows.empty()) continue;
@@ -80,7 +79,7 @@ PairCounts GaussLambert::exchange(const ElementBlock& rows, const ElementBlock& 
       ClusterPair between(*this, a, b);
       for (const Index i : of_rows)
         for (const Index j : of_columns)
-          if (i < j) pair(between, i, j);
+          if (i < j) between.exchange(i, j, sink, workspace, counts);
     }
   }
   return counts;

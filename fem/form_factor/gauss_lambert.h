@@ -11,8 +11,7 @@ namespace interflect::fem {
 /// Form factors of pairs: K_ij = K_ij,unoccluded V_ij.
 ///
 /// Orientation proves pairs dark; a shaft between two clusters of elements, or between the two elements, that no facet
-/// reaches into proves them clear; the visibility of the rest is sampled.  Errors: hypot(quadrature, K_ij,unoccluded standard
-/// error of V).
+/// reaches into proves them clear; the visibility of the rest is sampled, which gives an entry its standard error.
 class GaussLambert final : public FormFactorMethod {
  public:
   explicit GaussLambert(const FormFactorContext& context);

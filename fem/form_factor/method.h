@@ -17,13 +17,18 @@ struct ElementBlock {
   Index first = 0, count = 0;
 };
 
+/// One pair's exchange and what is known of its error.
+struct ExchangeEntry {
+  double K = 0;               ///< A_a F_ab [m²], 0 <= K <= min(A_a, A_b)
+  double standard_error = 0;  ///< of sampled visibility alone; 0 where nothing was sampled [m²]
+  double bound = 0;           ///< estimated bound on the rest: quadrature [m²]
+};
+
 /// Where entries of K go.  A pair is written once (a <= b or as asked for); the sink keeps K symmetric.
 class ExchangeSink {
  public:
   virtual ~ExchangeSink() = default;
-  /// @param K_ab   A_a F_ab [m²], 0 <= K_ab <= min(A_a, A_b)
-  /// @param error  standard error of sampled visibility and quadrature error, added in squares [m²]
-  virtual void add(Index a, Index b, double K_ab, double error) = 0;
+  virtual void add(Index a, Index b, const ExchangeEntry& entry) = 0;
 };
 
 /// Counts of what happened to the pairs of an assembly.

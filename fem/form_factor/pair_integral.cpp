@@ -9,19 +9,21 @@ namespace interflect::fem {
 
 namespace {
 
-/// Heights of an element's corners over a plane [m].
+/// Heights of an element's corners over another's plane, and what of them is rounding at most [m].
 struct Heights {
-  double lowest, highest;
+  double lowest, highest, rounding;
+  bool behind() const { return highest <= rounding; }
+  bool in_front() const { return lowest >= -rounding; }
 };
 
-Heights heights(const ElementShape& shape, const geometry::Plane& plane) {
-  double lowest = plane.distance(shape.corner[0]), highest = lowest;
-  for (std::size_t k = 1; k < shape.corners; ++k) {
-    const double height = plane.distance(shape.corner[k]);
+Heights heights(const ElementShapes& shapes, const ElementShape& of, const ElementShape& over) {
+  double lowest = over.plane.distance(of.corner[0]), highest = lowest;
+  for (std::size_t k = 1; k < of.corners; ++k) {
+    const double height = over.plane.distance(of.corner[k]);
     lowest = std::min(lowest, height);
     highest = std::max(highest, height);
   }
-  return {lowest, highest};
+  return {lowest, highest, shapes.height_tolerance(over, of.centroid)};
 }
 
 double slope(const Heights& h) { return (h.highest - h.lowest) / (h.highest + std::max(h.lowest, 0.0)); }
@@ -59,12 +61,11 @@ Pieces pieces_of(const geometry::ConvexRing& ring, const geometry::Plane& plane)
 
 PairIntegral PairIntegrator::operator()(Index i, Index j) const {
   const ElementShape &a = shapes_[i], &b = shapes_[j];
-  const double rounding = shapes_.plane_tolerance();
-  const Heights of_b = heights(b, a.plane);
-  if (of_b.highest <= rounding) return {};
-  const Heights of_a = heights(a, b.plane);
-  if (of_a.highest <= rounding) return {};
-  if (std::min(of_a.lowest, of_b.lowest) < -rounding) {
+  const Heights of_b = heights(shapes_, b, a);
+  if (of_b.behind()) return {};
+  const Heights of_a = heights(shapes_, a, b);
+  if (of_a.behind()) return {};
+  if (!of_a.in_front() || !of_b.in_front()) {
     const Integral part = clipped_pair(a, b);
     return {part.value > 0.0 ? Facing::crossing : Facing::away, part.value, part.error};
   }

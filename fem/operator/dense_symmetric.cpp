@@ -95,8 +95,9 @@ float* DenseSymmetric::error_tile(Index at) {
   return present;  // another thread was first
 }
 
-void DenseSymmetric::add(Index a, Index b, double K_ab, double error) {
-  assert(a >= 0 && a < size() && b >= 0 && b < size() && std::isfinite(K_ab) && std::isfinite(error));
+void DenseSymmetric::add(Index a, Index b, const ExchangeEntry& entry) {
+  const auto [K_ab, error, bound] = entry;
+  assert(a >= 0 && a < size() && b >= 0 && b < size() && std::isfinite(K_ab) && std::isfinite(error) && bound >= 0);
   if (a > b) std::swap(a, b);
   const Index I = a / tile_size, J = b / tile_size, i = a % tile_size, j = b % tile_size;
   double* K = tile_data(I, J);
@@ -114,7 +115,7 @@ double DenseSymmetric::entry(Index a, Index b) const {
   return tile_data(a / tile_size, b / tile_size)[a % tile_size * tile_size + b % tile_size];
 }
 
-double DenseSymmetric::entry_error(Index a, Index b) const {
+double DenseSymmetric::entry_standard_error(Index a, Index b) const {
   if (a > b) std::swap(a, b);
   const float* errors =
       errors_[static_cast<std::size_t>(tile_at(a / tile_size, b / tile_size))].load(std::memory_order_acquire);
@@ -166,8 +167,7 @@ void DenseSymmetric::apply(solvers::ConstColumns b, solvers::Columns out, Run& r
   multiply([&](Index at, double*) { return entries_.get() + at * tile_entries; }, b, out, run);
 }
 
-void DenseSymmetric::variance(solvers::ConstColumns b, solvers::Columns out, Run& run) const {
-  const solvers::ColumnMatrix squares = b.array().square();
+void DenseSymmetric::apply_variances(solvers::ConstColumns b, solvers::Columns out, Run& run) const {
   const auto squared_errors = [&](Index at, double* scratch) -> const double* {
     const float* errors = errors_[static_cast<std::size_t>(at)].load(std::memory_order_acquire);
     if (errors == nullptr) return nullptr;
@@ -177,7 +177,7 @@ void DenseSymmetric::variance(solvers::ConstColumns b, solvers::Columns out, Run
     }
     return scratch;
   };
-  multiply(squared_errors, squares, out, run);
+  multiply(squared_errors, b, out, run);
 }
 
 void DenseSymmetric::rows(Index first, Index count, solvers::Columns out) const {

@@ -19,7 +19,8 @@ namespace interflect::fem {
 /// The upper triangle lies in square tiles, row of tiles after row of tiles, so that one pass over memory serves K_IJ
 /// and its mirror K_JI = K_IJ^T.  Symmetric by construction: there is only one number a pair.
 ///
-/// Standard errors of entries are kept in single precision, in tiles made when first needed: 2 N² bytes more at worst.
+/// Standard errors of entries are kept in single precision, in tiles made when an entry in them was sampled: up to 2 N²
+/// bytes more.  Bounds on quadrature errors are not kept: they are at most the tolerance that the method was given.
 class DenseSymmetric final : public solvers::TransportOperator, public solvers::RowAccess, public ExchangeSink {
  public:
   /// All entries 0.  @param areas  of the elements [m²]   @throws core::InputError  where there is no memory for it
@@ -29,7 +30,7 @@ class DenseSymmetric final : public solvers::TransportOperator, public solvers::
   Index size() const { return layout_.unknowns(); }
 
   /// Sets K_ab = K_ba.  Threads may add at the same time as long as no pair is added twice.
-  void add(Index a, Index b, double K_ab, double error) override;
+  void add(Index a, Index b, const ExchangeEntry& entry) override;
 
   const solvers::Layout& layout() const override { return layout_; }
   bool symmetric() const override { return true; }
@@ -42,22 +43,21 @@ class DenseSymmetric final : public solvers::TransportOperator, public solvers::
   void rows(Index first, Index count, solvers::Columns out) const override;
   Index evaluated() const override { return evaluated_.load(std::memory_order_relaxed); }
 
-  double entry(Index a, Index b) const;        ///< K_ab [m²]
-  double entry_error(Index a, Index b) const;  ///< its standard error [m²]
+  double entry(Index a, Index b) const;                 ///< K_ab [m²]
+  double entry_standard_error(Index a, Index b) const;  ///< [m²]
 
   /// sum_b F_ab = sum_b K_ab / A_a, for every a: 1 where a closed scene is resolved, less where light escapes.
   std::vector<double> row_sums(Run& run) const;
 
-  /// out_a = sum_b (error_ab b_b)²: the variance of (K b)_a for independent errors, [m² x unit of b]²; shape as in
-  /// `apply`.
-  void variance(solvers::ConstColumns b, solvers::Columns out, Run& run) const;
+  /// out_a = sum_b error_ab² b_b, error_ab being the standard error of K_ab [m^4 x unit of b]; shape as in `apply`.  Of squares
+  /// b_b² it is the variance of (K b)_a, since errors of different pairs are independent.
+  void apply_variances(solvers::ConstColumns b, solvers::Columns out, Run& run) const;
   bool has_errors() const;
 
   /// K_ab <- s_a K_ab s_b for all pairs, errors too.
   void scale(std::span<const double> s, Run& run);
 
-  /// sum of f(a, b, K_ab) over all entries, both triangles, in a fixed order.  f must be symmetric: it is asked once a
-  /// pair.
+  /// sum of f(a, b, K_ab) over all entries, both triangles, in a fixed order; f, symmetric, is asked once a pair.
   template <class F>
   double sum_over_entries(const Run& run, const F& f) const;
 

@@ -1,7 +1,5 @@
 #include "scene/io/assimp_guard.h"
 
-#include <cctype>
-
 #include "core/error.h"
 #include "core/format.h"
 #include "scene/io/text_file.h"
@@ -24,8 +22,7 @@ GuardedFile guarded_stl(std::string bytes, const std::string& shown) {
 GuardedFile read_guarded(const std::filesystem::path& file, const std::string& shown) {
   std::string bytes = read_bytes(file, shown);
   if (bytes.empty()) throw core::InputError(shown, "the file is empty");
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = core::lower_case(file.extension().string());
   if (extension == ".ply") return guarded_ply(std::move(bytes), shown);
   if (extension == ".stl") return guarded_stl(std::move(bytes), shown);
   return guarded_gltf(bytes, file, shown);

@@ -11,8 +11,8 @@ namespace interflect::scene::io {
 /// A file as assimp may see it.
 struct GuardedFile {
   std::string bytes;  ///< of glTF, only what makes up its shapes is left
-  std::optional<std::size_t>
-      faces;  ///< that its meshes say they have, where that is plain to see: faulty ones get lost
+  /// Faces that its meshes say they have, where that is plain to see: faulty ones get lost on the way.
+  std::optional<std::size_t> faces;
 };
 
 /// Refuses a PLY, STL, glTF or GLB file that promises more than it holds, or whose nodes form a ring: assimp believes headers,

@@ -42,7 +42,7 @@ class SceneWalk {
   }
 
  private:
-  /// Meshes as the node places them: the tree is shallow, which `require_honest` has seen to.
+  /// Meshes as the node places them: the tree is shallow, which `read_guarded` has seen to.
   void node(const aiNode& n, const Eigen::Matrix4d& parent) {
     const aiMatrix4x4& m = n.mTransformation;
     Eigen::Matrix4d own;

@@ -102,11 +102,14 @@ void GeometryReader::read_file(const JsonNode& entry) {
   const MeshRepair repair = read_repair(entry, unit_);
 
   MeshFile mesh = read_mesh(path, shown);
+  place_vertices(mesh, placement);
+  if (repair.weld > 0 && repair.weld < finest_weld(mesh))
+    entry.at("repair").at("weld").fail("a weld of less than 1e-15 of the coordinates is below their rounding");
   const auto materials = map_materials(entry, mesh.materials, shown);
   auto& repairs = builder_.scene().repairs;
   for (const std::string& note : mesh.notes) repairs.push_back({shown, note});
-  const std::size_t welded = place_vertices(mesh, placement, repair.weld);
-  if (welded > 0) repairs.push_back({shown, core::format("%zu vertices welded to others", welded)});
+  if (const std::size_t welded = weld_vertices(mesh, repair.weld); welded > 0)
+    repairs.push_back({shown, core::format("%zu vertices welded to others", welded)});
   if (mesh.single_precision)
     builder_.scene().warnings.push_back(
         {shown, "coordinates are in single precision, as the format or its reader has them"});
@@ -119,6 +122,10 @@ std::vector<MaterialId> GeometryReader::map_materials(const JsonNode& entry, con
   std::string missing;
   const bool mapped = entry.has("materials");
   const bool fallback = entry.has("unmapped") && entry.at("unmapped").string() != "error";
+  // Every target is looked up, whether a face asks for it or not: a slip shall not wait for its face.
+  if (fallback) materials_.require(entry.at("unmapped"));
+  if (mapped)
+    for (const auto& [name, target] : entry.at("materials").members()) materials_.require(target);
   for (const std::string& name : names) {
     if (mapped && entry.at("materials").has(name))
       out.push_back(materials_.use(builder_, entry.at("materials").at(name), Sides::both));

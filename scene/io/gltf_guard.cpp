@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "scene/io/assimp_guard.h"
+#include "scene/io/glb.h"
 #include "scene/io/text_file.h"
 
 namespace interflect::scene::io {
@@ -255,47 +256,17 @@ Json parse(std::string_view text, const std::string& shown) {
   }
 }
 
-/// The two parts in one file again.
-std::string as_glb(std::string text, std::string_view binary) {
-  const auto number = [](std::size_t n) {
-    std::string out(4, '\0');
-    for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<char>(n >> (8 * k) & 0xFF);
-    return out;
-  };
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  const std::size_t padding = (4 - binary.size() % 4) % 4;
-  std::string body = number(text.size()) + "JSON" + text;
-  if (!binary.empty())
-    body +=
-        number(binary.size() + padding) + std::string("BIN\0", 4) + std::string(binary) + std::string(padding, '\0');
-  return "glTF" + number(2) + number(12 + body.size()) + body;
-}
-
 }  // namespace
 
 GuardedFile guarded_gltf(const std::string& bytes, const std::filesystem::path& file, const std::string& shown) {
-  std::string_view text = bytes, binary;
   const bool is_glb = bytes.starts_with("glTF");
-  if (is_glb) {  // 12 bytes, then chunks of 8 bytes and their content: the text, the binary part
-    constexpr std::size_t head = 20, chunk = 8;
-    if (bytes.size() < head || little_endian(bytes, 8) > bytes.size() || little_endian(bytes, 12) > bytes.size() - head)
-      throw core::InputError(shown, "the file is shorter than its header says");
-    text = text.substr(head, little_endian(bytes, 12));
-    binary = std::string_view(bytes).substr(head + text.size());
-    if (binary.size() < chunk) binary = {};
-    if (!binary.empty() && little_endian(binary, 0) > binary.size() - chunk)
-      throw core::InputError(shown, "the file is shorter than its header says");
-    if (!binary.empty()) binary = binary.substr(chunk, little_endian(binary, 0));
-    while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
-    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-      throw core::InputError(shown, "the file has no JSON part");
-  }
+  const auto [text, binary] = is_glb ? glb_parts(bytes, shown) : GlbParts{bytes, {}};
   require_text(text, shown);
   const Json root = parse(text, shown);
   if (!root.is_object()) throw core::InputError(shown, "a JSON object is expected");
   const auto faces = GltfGuard(root, binary.size(), file.parent_path(), shown).run();
   const std::string kept = shapes_of(root).dump(-1, ' ', true, Json::error_handler_t::replace);
-  return {is_glb ? as_glb(kept, binary) : kept, faces};
+  return {is_glb ? glb_bytes(kept, binary) : kept, faces};
 }
 
 }  // namespace interflect::scene::io

@@ -40,6 +40,25 @@ void require_known(const JsonNode& node) {
   node.only({"type", "reflectance", "exitance", "flux", "sides"});
 }
 
+/// Names that an EXR picture can hold beside each other: it has a NAME.error for every NAME, and r becomes R.
+std::vector<std::string> read_channel_names(const JsonNode& channels) {
+  constexpr std::size_t most = Spectrum::capacity;
+  const auto nodes = channels.items(1);
+  if (nodes.size() > most)
+    channels.fail(core::format("%zu channels: this build holds at most %zu", nodes.size(), most));
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const JsonNode& node : nodes) {
+    const std::string name = node.string(), lower = core::lower_case(name);
+    if (name.empty()) node.fail("a channel needs a name");
+    if (lower.ends_with(".error")) node.fail("a channel's name does not end in '.error': pictures keep errors there");
+    if (!taken.insert(lower).second)
+      node.fail("two channels have the name '" + shown_word(name) + "' (upper and lower case are one)");
+    names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 Spectrum read_spectrum(const JsonNode& node, int channels) {
@@ -60,20 +79,7 @@ Spectrum read_spectrum(const JsonNode& node, int channels) {
 
 std::vector<std::string> read_channels(const JsonNode& root) {
   constexpr std::size_t most = Spectrum::capacity;
-  std::vector<std::string> names;
-  if (root.has("channels")) {
-    std::set<std::string> taken;
-    const auto nodes = root.at("channels").items(1);
-    if (nodes.size() > most)
-      root.at("channels").fail(core::format("%zu channels: this build holds at most %zu", nodes.size(), most));
-    for (const JsonNode& node : nodes) {
-      names.push_back(node.string());
-      if (names.back().empty()) node.fail("a channel needs a name");
-      if (!taken.insert(names.back()).second)
-        node.fail("two channels have the name '" + shown_word(names.back()) + "'");
-    }
-    return names;
-  }
+  if (root.has("channels")) return read_channel_names(root.at("channels"));
   for (const auto& [name, material] : root.at("materials").members())
     for (const char* key : {"reflectance", "exitance", "flux"}) {
       if (!material.is_object() || !material.has(key) || !material.at(key).is_array()) continue;
@@ -81,6 +87,7 @@ std::vector<std::string> read_channels(const JsonNode& root) {
       if (count > most) material.at(key).fail(core::format("%zu channels: this build holds at most %zu", count, most));
       if (count == 3) return {"r", "g", "b"};
       if (count == 1) return {"y"};
+      std::vector<std::string> names;
       for (std::size_t c = 1; c <= count; ++c) names.push_back(core::format("band_%zu", c));
       return names;
     }
@@ -108,10 +115,14 @@ MaterialLibrary::Entry MaterialLibrary::read_entry(const std::string& name, cons
   return entry;
 }
 
-MaterialId MaterialLibrary::use(SceneBuilder& builder, const JsonNode& name, Sides fallback) {
+std::size_t MaterialLibrary::index_of(const JsonNode& name) const {
   const auto at = std::find(names_.begin(), names_.end(), name.string());
   if (at == names_.end()) name.fail(unknown_word("the material", name.string(), names_));
-  Entry& entry = entries_[static_cast<std::size_t>(at - names_.begin())];
+  return static_cast<std::size_t>(at - names_.begin());
+}
+
+MaterialId MaterialLibrary::use(SceneBuilder& builder, const JsonNode& name, Sides fallback) {
+  Entry& entry = entries_[index_of(name)];
   const Sides sides = entry.says_sides ? entry.material.sides : fallback;
   const std::size_t other = sides == Sides::front ? 1 : 0;
   auto& id = entry.used[static_cast<std::size_t>(sides)];

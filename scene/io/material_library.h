@@ -21,6 +21,9 @@ class MaterialLibrary {
  public:
   MaterialLibrary(const JsonNode& materials, int channels);
 
+  /// Refuses the name of an unknown material where it stands; a known one stays unused.
+  void require(const JsonNode& name) const { index_of(name); }
+
   /// @param name      where it is named: an unknown one is refused there
   /// @param fallback  sides of a material that does not say
   MaterialId use(SceneBuilder& builder, const JsonNode& name, Sides fallback);
@@ -35,6 +38,7 @@ class MaterialLibrary {
     std::optional<Spectrum> flux;                   ///< [W | lm]
     std::array<std::optional<MaterialId>, 2> used;  ///< by Sides
   };
+  std::size_t index_of(const JsonNode& name) const;
   static Entry read_entry(const std::string& name, const JsonNode& node, int channels);
   static void share_flux(SceneBuilder& builder, const Entry& entry);
 

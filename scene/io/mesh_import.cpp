@@ -192,7 +192,7 @@ class MeshImport {
 
   void finish(const Part& part) {
     if (part.triangles.empty()) return;
-    const std::string name = shown_word(name_of(part));
+    const std::string name = one_line(name_of(part));
     const MaterialId material = materials_[part.material];
     if (part.faces == 1 && !part.only.empty()) {
       try {

@@ -14,12 +14,18 @@ namespace interflect::scene::io {
 struct MeshRepair {
   double weld = 0;              ///< vertices nearer than this become one [m]; 0: none
   bool drop_degenerate = true;  ///< faces without area; otherwise they are an error
-  bool drop_duplicate =
-      true;  ///< faces with the corners of an earlier one, which run the same way or bear the same two-sided material
+  /// Faces with the corners of an earlier one, which run the same way or bear the same two-sided material.
+  bool drop_duplicate = true;
 };
 
-/// Moves the vertices to their place and welds them.  Returns how many were welded to another.
-std::size_t place_vertices(MeshFile& mesh, const Placement& placement, double weld);
+/// Moves the vertices to their place.
+void place_vertices(MeshFile& mesh, const Placement& placement);
+
+/// Of vertices in their place: 1e-15 of the largest coordinate [m].  A weld below it is lost in their rounding.
+double finest_weld(const MeshFile& mesh);
+
+/// Makes one of vertices nearer than `weld` [m], 0 or at least finest_weld.  Returns how many were welded to another.
+std::size_t weld_vertices(MeshFile& mesh, double weld);
 
 /// Puts a mesh (its vertices placed) into the scene: a surface for every pair of group and material.
 /// @param materials  by the mesh's own material

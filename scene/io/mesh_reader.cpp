@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <new>
 
 #include "core/error.h"
@@ -24,8 +23,7 @@ constexpr std::array<Format, 5> formats = {{{".obj", read_obj},
                                             {".glb", read_by_assimp}}};
 
 const Format& format_of(const std::filesystem::path& file, const std::string& shown) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = core::lower_case(file.extension().string());
   for (const Format& format : formats)
     if (extension == format.extension) return format;
   std::vector<std::string> known;

@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
-#include "core/error.h"
 #include "scene/io/mesh_import.h"
 
 namespace interflect::scene::io {
@@ -52,15 +52,18 @@ class WeldGrid {
 
 }  // namespace
 
-std::size_t place_vertices(MeshFile& mesh, const Placement& placement, double weld) {
+void place_vertices(MeshFile& mesh, const Placement& placement) {
+  for (Vec3& x : mesh.vertices) x = placement(x);
+}
+
+double finest_weld(const MeshFile& mesh) {
   double largest = 0;
-  for (Vec3& x : mesh.vertices) {
-    x = placement(x);
-    largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  }
+  for (const Vec3& x : mesh.vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  return 1e-15 * largest;
+}
+
+std::size_t weld_vertices(MeshFile& mesh, double weld) {
   if (weld <= 0) return 0;
-  if (largest / weld > 1e15)
-    throw core::InputError("a weld of less than 1e-15 of the coordinates is below their rounding");
   WeldGrid grid(mesh.vertices, weld);
   std::vector<std::uint32_t> representative(mesh.vertices.size());
   std::size_t welded = 0;

@@ -10,8 +10,8 @@
 namespace interflect::scene::io {
 namespace {
 
-constexpr double most_points = 1e7;  // of one sensor: beyond, a slip in its spacing is likelier than a wish
-constexpr int most_pixels = 65536;   // along one side
+constexpr int most_points = 10'000'000;  // of one sensor: beyond, a slip in its spacing is likelier than a wish
+constexpr int most_pixels = 65536;       // along one side
 
 Vec3 read_direction(const JsonNode& node) {
   const Vec3 direction = node.vec3();
@@ -20,25 +20,22 @@ Vec3 read_direction(const JsonNode& node) {
   return direction / length;
 }
 
-std::variant<double, Eigen::Array2i> read_step(const JsonNode& grid, const LengthUnit& unit, const Vec3& u,
-                                               const Vec3& v) {
-  if (grid.has("spacing") == grid.has("counts")) grid.fail("one of 'spacing' and 'counts' is expected");
+std::variant<double, Eigen::Array2i> read_step(const JsonNode& grid, const LengthUnit& unit) {
   if (grid.has("counts")) {
     const auto counts = grid.at("counts").items(2, 2);
-    const Eigen::Array2i n(counts[0].integer_in(1, 1000000), counts[1].integer_in(1, 1000000));
-    if (static_cast<double>(n[0]) * n[1] > most_points)
-      grid.at("counts").fail(core::format("more than %.0e points", most_points));
-    return n;
+    return Eigen::Array2i(counts[0].integer_in(1, 1000000), counts[1].integer_in(1, 1000000));
   }
   const JsonNode node = grid.at("spacing");
-  if (node.is_string()) {
-    node.one_of({"en12464"});
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const double spacing = unit.metres(node.positive());
-  if (!(u.norm() / spacing * (v.norm() / spacing) <= most_points))
-    node.fail(core::format("more than %.0e points", most_points));
-  return spacing;
+  if (!node.is_string()) return unit.metres(node.positive());
+  node.one_of({"en12464"});
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double read_border(const JsonNode& node, const LengthUnit& unit, double shorter_side) {
+  const double border = unit.metres(node.number());
+  if (border < 0) node.fail("a border is not negative");
+  if (2 * border >= shorter_side) node.fail("two borders leave nothing of the grid's shorter side");
+  return border;
 }
 
 SensorGrid read_grid(const JsonNode& sensor, const LengthUnit& unit) {
@@ -50,13 +47,13 @@ SensorGrid read_grid(const JsonNode& sensor, const LengthUnit& unit) {
   if (!(u > 0)) node.at("u").fail("a side of a grid has a length");
   if (!(v > 0)) node.at("v").fail("a side of a grid has a length");
   if (!(grid.u.cross(grid.v).norm() > 1e-9 * u * v)) node.fail("u and v are parallel: the grid has no area");
-  grid.step = read_step(node, unit, grid.u, grid.v);
-  if (sensor.has("exclude_border")) {
-    const JsonNode border = sensor.at("exclude_border");
-    grid.exclude_border = unit.metres(border.number());
-    if (grid.exclude_border < 0) border.fail("a border is not negative");
-    if (2 * grid.exclude_border >= std::min(u, v)) border.fail("two borders leave nothing of the grid's shorter side");
-  }
+  if (sensor.has("exclude_border"))
+    grid.exclude_border = read_border(sensor.at("exclude_border"), unit, std::min(u, v));
+  if (node.has("spacing") == node.has("counts")) node.fail("one of 'spacing' and 'counts' is expected");
+  grid.step = read_step(node, unit);
+  const auto [along_u, along_v] = cell_counts(grid);
+  if (along_u * along_v > most_points)
+    node.at(node.has("counts") ? "counts" : "spacing").fail(core::format("more than %.0e points", double{most_points}));
   return grid;
 }
 

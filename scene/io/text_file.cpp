@@ -71,10 +71,15 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text;
 }
 
-std::string shown_word(std::string_view word) {
-  std::string line = core::single_line(std::string(word.substr(0, 60)));
+std::string one_line(std::string_view text) {
+  std::string line = core::single_line(std::string(text));
   std::erase_if(line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-  return word.size() > 60 ? line + ".." : line;
+  return line;
+}
+
+std::string shown_word(std::string_view word) {
+  constexpr std::size_t longest = 60;
+  return word.size() > longest ? one_line(word.substr(0, longest)) + ".." : one_line(word);
 }
 
 std::string unknown_word(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {

@@ -21,6 +21,9 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// "'reflectence' is not known: did you mean 'reflectance'?", or the list of what is known where nothing is near.
 std::string unknown_word(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
 
+/// Text from a file on one line, without control characters.
+std::string one_line(std::string_view text);
+
 /// A word from a file, fit for a message: one line, cut after 60 characters.
 std::string shown_word(std::string_view word);
 

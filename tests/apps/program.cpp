@@ -1,6 +1,7 @@
 #include "tests/apps/program.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -42,19 +43,35 @@ pid_t start(std::vector<std::string> words, const std::string& out, const std::s
   return pid;
 }
 
+/// Waits for the program, interrupts it when its time has come, kills it when it takes too long.
+int status_of(pid_t pid, const std::string& err, const Circumstances& circumstances) {
+  using namespace std::chrono;
+  const auto end = steady_clock::now() + duration<double>(circumstances.patience_s);
+  bool to_interrupt = static_cast<bool>(circumstances.interrupt_when), killed = false;
+  for (int status = 0;;) {
+    if (waitpid(pid, &status, WNOHANG) == pid) return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (to_interrupt && circumstances.interrupt_when(read_file(err))) {
+      kill(pid, SIGINT);
+      to_interrupt = false;
+    }
+    if (!killed && steady_clock::now() > end) {
+      ADD_FAILURE() << "killed after " << circumstances.patience_s << " s";
+      kill(pid, SIGKILL);
+      killed = true;
+    }
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+}
+
 }  // namespace
 
 Outcome interflect(const std::vector<std::string>& arguments, const Circumstances& circumstances) {
   const TemporaryFolder folder;
-  const std::string out = folder / "out", err = folder / "err";
+  const std::string err = folder / "err";
+  const std::string out = circumstances.prints_to.empty() ? std::string(folder / "out") : circumstances.prints_to;
   const pid_t pid = start(command_of(arguments, circumstances.memory_limit_kb), out, err);
-  if (circumstances.interrupt_after_s > 0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(circumstances.interrupt_after_s));
-    kill(pid, SIGINT);
-  }
-  int status = 0;
-  waitpid(pid, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(out), read_file(err)};
+  const int status = status_of(pid, err, circumstances);
+  return {status, circumstances.prints_to.empty() ? read_file(out) : "", read_file(err)};
 }
 
 }  // namespace interflect::test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,11 @@ struct Outcome {
 
 /// What happens to the program while it runs.
 struct Circumstances {
-  long memory_limit_kb = 0;        ///< address space that it may have; 0: no limit
-  double interrupt_after_s = 0;    ///< Ctrl-C comes then; 0: never
+  long memory_limit_kb = 0;    ///< address space that it may have; 0: no limit
+  std::string prints_to = {};  ///< a file in place of its standard output, such as /dev/full
+  /// Ctrl-C comes as soon as this holds of what it has printed on standard error so far; empty: never.
+  std::function<bool(const std::string& err)> interrupt_when = {};
+  double patience_s = 300;  ///< it is killed after that, and the test fails
 };
 
 /// Runs `interflect ARGUMENTS`.

@@ -28,6 +28,20 @@ TEST(Moments, merging_parts_equals_adding_all) {
   EXPECT_NEAR(left.variance()[0] / all.variance()[0], 1, 1e-13);
 }
 
+TEST(Moments, a_number_is_a_channel_by_itself) {
+  Moments all;
+  ScalarMoments number, rest;
+  for (int i = 0; i < 100; ++i) {
+    const double x = RandomNumbers(2, 0, static_cast<std::uint64_t>(i)).next();
+    all.add(Spectrum(x));
+    (i < 60 ? number : rest).add(x);
+  }
+  number.merge(rest);
+  EXPECT_NEAR(number.mean(), all.mean()[0], 1e-15);
+  EXPECT_NEAR(number.standard_error(), all.standard_error()[0], 1e-15);
+  EXPECT_TRUE(std::isinf(ScalarMoments().standard_error()));
+}
+
 TEST(Moments, one_sample_knows_nothing_of_its_error) {
   Moments m;
   m.add(Spectrum(1.0));

@@ -19,7 +19,7 @@ OperatorPair perturbed(Index n, double amount, std::uint64_t seed) {
     for (Index b = a; b < n; ++b) {
       pair.full(a, b) *= 1 + amount * (2 * random.next() - 1);
       pair.full(b, a) = pair.full(a, b);
-      pair.K->add(a, b, pair.full(a, b), 0);
+      pair.K->add(a, b, {pair.full(a, b), 0});
     }
   return pair;
 }
@@ -120,7 +120,7 @@ TEST(Closure, works_where_elements_form_two_groups_that_see_each_other_only) {
   DenseSymmetric K(std::vector<double>(static_cast<std::size_t>(n), 1.0));
   for (Index a = 0; a < n / 2; ++a)
     for (Index b = n / 2; b < n; ++b)
-      K.add(a, b, (1 + 0.2 * (random.next() - 0.5)) / (0.5 * static_cast<double>(n)), 0);
+      K.add(a, b, {(1 + 0.2 * (random.next() - 0.5)) / (0.5 * static_cast<double>(n)), 0});
   EXPECT_TRUE(restore_closure(K, run).converged);
 }
 
@@ -128,7 +128,7 @@ TEST(Closure, refuses_an_open_scene_and_leaves_it_as_it_was) {
   core::LocalRun run(1, 1);
   const OperatorPair pair = random_pair(100, 10, 2, true, true);
   for (Index b = 0; b < 100; ++b)
-    if (b % 2 == 0) pair.K->add(3, b, 0, 0);  // half of what element 3 sees is sky
+    if (b % 2 == 0) pair.K->add(3, b, {0, 0});  // half of what element 3 sees is sky
   const Eigen::MatrixXd before = full(*pair.K);
   try {
     restore_closure(*pair.K, run);
@@ -151,7 +151,7 @@ TEST(Closure, refuses_a_correction_above_its_limit_and_leaves_K_as_it_was) {
 TEST(Closure, says_so_where_no_scaling_exists) {
   core::LocalRun run(1, 1);
   DenseSymmetric K({1.0, 1.1});
-  K.add(0, 1, 1.05, 0);
+  K.add(0, 1, {1.05, 0});
   EXPECT_THROW(restore_closure(K, run), core::InputError);
   EXPECT_EQ(K.entry(0, 1), 1.05);
 }

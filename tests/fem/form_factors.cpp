@@ -24,7 +24,7 @@ scene::SurfacePatch patch(std::uint32_t surface, const std::vector<Vec3>& ring) 
 }
 scene::SurfacePatch unit_square() { return patch(0, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}); }
 
-// truths.md 2.11 and methods.md 1.10; the tolerance asked for bounds the error.
+// docs/truths.md 2.11: V1, V2, V10, V8, V11; the tolerance asked for bounds the error.
 TEST(FormFactors, agree_with_published_closed_forms) {
   const auto above = patch(1, {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}});
   const auto beside = patch(1, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}});

@@ -17,7 +17,7 @@ double total(const Gathered& g) {
   return sum;
 }
 
-/// truths.md 2.9: a square source two metres up, a square blocker of the same size one metre up.
+/// docs/truths.md 2.9: a square source two metres up, a square blocker of the same size one metre up.
 struct Shadow {
   explicit Shadow(int n, bool blocked) {
     room.wall({-.5, -.5, 2}, {0, 1, 0}, {1, 0, 0}, n, 0, 1);

@@ -31,8 +31,8 @@ Sum exchange_between_halves(const test::Assembled& F) {
   return {F.K.topRightCorner(n, n).sum(), std::sqrt(F.error.topRightCorner(n, n).squaredNorm())};
 }
 
-// truths.md V6 and V7, for one pair and for 256; four two-sided tests, alpha 1e-4 together: 4.1 standard errors.  (The standard
-// error is cautious, so that the true level is lower.)
+// docs/truths.md 2.11, V6 and V7, for one pair and for 256; four two-sided tests, alpha 1e-4 together: 4.1 standard errors.
+// (The standard error is cautious, so that the true level is lower.)
 TEST(Occlusion, form_factors_past_a_screen_agree_with_the_exact_ones) {
   for (int n : {1, 4})
     for (const auto& [corner, exact] :
@@ -47,7 +47,8 @@ TEST(Occlusion, form_factors_past_a_screen_agree_with_the_exact_ones) {
     }
 }
 
-// truths.md V5: cubes of sides 3 and 1, F(out,out) = 8/9, F(out,in) = 1/9, F(in,out) = 1.  The inner cube's share needs no rays.
+// docs/truths.md 2.11, V5: cubes of sides 3 and 1, F(out,out) = 8/9, F(out,in) = 1/9, F(in,out) = 1.  The inner cube's share
+// needs no rays.
 TEST(Occlusion, concentric_cubes_see_each_other_as_any_convex_bodies_do) {
   Room room;
   room.box({-1.5, -1.5, -1.5}, {3, 3, 3}, 4);

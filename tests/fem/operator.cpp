@@ -31,7 +31,7 @@ TEST(DenseSymmetric, is_symmetric_by_construction_whichever_way_a_pair_is_writte
   for (Index a = 0; a < 150; ++a)
     for (Index b = a; b < 150; ++b) {
       const double u = random.next();
-      random.next() < 0.5 ? K.add(a, b, u, 0.1 * u) : K.add(b, a, u, 0.1 * u);
+      random.next() < 0.5 ? K.add(a, b, {u, 0.1 * u}) : K.add(b, a, {u, 0.1 * u});
       full(a, b) = full(b, a) = u;
     }
   solvers::ColumnMatrix rows(150, 150);
@@ -40,8 +40,8 @@ TEST(DenseSymmetric, is_symmetric_by_construction_whichever_way_a_pair_is_writte
   for (Index a = 0; a < 150; ++a)
     for (Index b = 0; b < 150; ++b) {
       EXPECT_EQ(K.entry(a, b), full(a, b));
-      EXPECT_EQ(K.entry_error(a, b), K.entry_error(b, a));
-      EXPECT_NEAR(K.entry_error(a, b), 0.1 * full(a, b), 1e-7);
+      EXPECT_EQ(K.entry_standard_error(a, b), K.entry_standard_error(b, a));
+      EXPECT_NEAR(K.entry_standard_error(a, b), 0.1 * full(a, b), 1e-7);
     }
 }
 
@@ -66,18 +66,18 @@ TEST(DenseSymmetric, adds_up_form_factors_over_rows_of_areas_four_decades_apart)
   EXPECT_EQ(pair.K->gram()[17], pair.areas(17));
 }
 
-TEST(DenseSymmetric, knows_the_variance_of_its_product) {
+TEST(DenseSymmetric, knows_the_variances_of_its_product) {
   core::LocalRun run(1, 1);
   const OperatorPair pair = random_pair(140, 6);
   const solvers::ColumnMatrix b = random_columns(140, 3, 7);
   solvers::ColumnMatrix out(140, 3);
-  pair.K->variance(b, out, run);
+  pair.K->apply_variances(b.cwiseAbs2(), out, run);
   const Eigen::MatrixXd exact = pair.errors.cwiseAbs2() * Eigen::MatrixXd(b).cwiseAbs2();
   EXPECT_GT(exact.minCoeff(), 0);
   EXPECT_LE((out - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-// Two products with the same realised errors: the spread of 4000 products is what `variance` says.  A sample variance
+// Two products with the same realised errors: the spread of 4000 products is what `apply_variances` says.  A sample variance
 // of m normal-like numbers has a relative standard deviation of sqrt(2 / m) = 2.2 % (less for uniform ones); 5 of
 // these.
 TEST(DenseSymmetric, has_the_variance_that_independent_errors_make) {
@@ -86,7 +86,7 @@ TEST(DenseSymmetric, has_the_variance_that_independent_errors_make) {
   const OperatorPair pair = random_pair(n, 8, 2);
   const solvers::ColumnMatrix b = solvers::ColumnMatrix::Ones(n, 1);
   solvers::ColumnMatrix predicted(n, 1);
-  pair.K->variance(b, predicted, run);
+  pair.K->apply_variances(b, predicted, run);  // of ones: the squares are ones too
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n), squares = sum;
   for (Index t = 0; t < trials; ++t) {
     core::RandomNumbers random(9, 0, static_cast<std::uint64_t>(t));
@@ -113,7 +113,7 @@ TEST(DenseSymmetric, stores_each_pair_once) {
     EXPECT_LE(K.bytes(), pairs * std::pow(1 + 2.0 * tile_size / static_cast<double>(n), 2));
     EXPECT_FALSE(K.has_errors());
     const double before = K.bytes();
-    K.add(0, n - 1, 1, 0.5);
+    K.add(0, n - 1, {1, 0.5});
     EXPECT_TRUE(K.has_errors());
     EXPECT_EQ(K.bytes(), before + 4.0 * tile_size * tile_size) << "errors of one tile";
   }
@@ -121,15 +121,15 @@ TEST(DenseSymmetric, stores_each_pair_once) {
 
 TEST(DenseSymmetric, forgets_an_error_that_is_overwritten) {
   DenseSymmetric K({1, 1});
-  K.add(0, 1, 2, 0.5);
-  K.add(1, 0, 3, 0);
+  K.add(0, 1, {2, 0.5});
+  K.add(1, 0, {3, 0});
   EXPECT_EQ(K.entry(0, 1), 3);
-  EXPECT_EQ(K.entry_error(0, 1), 0);
+  EXPECT_EQ(K.entry_standard_error(0, 1), 0);
 }
 
 TEST(DenseSymmetric, keeps_its_diagonal_for_solvers) {
   DenseSymmetric K(std::vector<double>(70, 2.0));
-  K.add(66, 66, 0.25, 0);
+  K.add(66, 66, {0.25, 0});
   EXPECT_EQ(K.self()[66], 0.25);
   EXPECT_EQ(K.self()[65], 0);
   std::vector<double> s(70, 1.0);

@@ -42,7 +42,7 @@ inline OperatorPair random_pair(Index n, std::uint64_t seed, double decades = 4,
   if (closed) pair.full = (0.5 * (pair.full + pair.full.transpose())).eval();
   pair.K = std::make_unique<DenseSymmetric>(std::vector<double>(pair.areas.begin(), pair.areas.end()));
   for (Index a = 0; a < n; ++a)
-    for (Index b = a; b < n; ++b) pair.K->add(a, b, pair.full(a, b), pair.errors(a, b));
+    for (Index b = a; b < n; ++b) pair.K->add(a, b, {pair.full(a, b), pair.errors(a, b)});
   return pair;
 }
 

@@ -13,7 +13,7 @@ TEST(DenseSymmetricThreads, give_the_same_bits_whatever_their_number) {
   solvers::ColumnMatrix product(n, 3), variance(n, 3);
   core::LocalRun one(1, 1);
   pair.K->apply(b, product, one);
-  pair.K->variance(b, variance, one);
+  pair.K->apply_variances(b, variance, one);
   const auto cubes = [](Index a, Index, double K_ab) { return static_cast<double>(a % 7) * K_ab * K_ab * K_ab; };
   const double sum = pair.K->sum_over_entries(one.get(), cubes);
   for (const unsigned threads : {2u, 3u, 8u}) {
@@ -21,7 +21,7 @@ TEST(DenseSymmetricThreads, give_the_same_bits_whatever_their_number) {
     solvers::ColumnMatrix out(n, 3);
     pair.K->apply(b, out, several);
     EXPECT_EQ(out, product) << threads;
-    pair.K->variance(b, out, several);
+    pair.K->apply_variances(b, out, several);
     EXPECT_EQ(out, variance) << threads;
     EXPECT_EQ(pair.K->sum_over_entries(several.get(), cubes), sum) << threads;
   }
@@ -34,12 +34,12 @@ TEST(DenseSymmetricThreads, may_write_distinct_pairs_at_the_same_time) {
   DenseSymmetric K(std::vector<double>(pair.areas.begin(), pair.areas.end()));
   core::LocalRun run(1, 8);
   run.get().threads.for_blocks(n, 1, [&](Index a, Index) {
-    for (Index b = a; b < n; ++b) K.add(a, b, pair.full(a, b), pair.errors(a, b));
+    for (Index b = a; b < n; ++b) K.add(a, b, {pair.full(a, b), pair.errors(a, b)});
   });
   for (Index a = 0; a < n; ++a)
     for (Index b = 0; b < n; ++b) {
       ASSERT_EQ(K.entry(a, b), pair.full(a, b));
-      ASSERT_EQ(K.entry_error(a, b), pair.errors(a, b));
+      ASSERT_EQ(K.entry_standard_error(a, b), pair.errors(a, b));
     }
 }
 

@@ -29,7 +29,7 @@ TEST(PointToPolygon, agrees_with_the_closed_form_of_a_rectangle_above_its_corner
       }
 }
 
-// truths.md 2.9: a square of half side .5 two metres above, from points beside its axis.
+// docs/truths.md 2.9: a square of half side .5 two metres above, from points beside its axis.
 TEST(PointToPolygon, agrees_with_the_table_of_direct_light) {
   const Ring ring = {{-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2}};
   const std::vector<std::pair<Vec3, double>> table = {{{0, 0, 0}, .073477634813}, {{.5, 0, 0}, .066182613783},

@@ -72,12 +72,13 @@ class Room {
 class MatrixSink final : public ExchangeSink {
  public:
   explicit MatrixSink(std::size_t n) : K(Eigen::MatrixXd::Zero(Index(n), Index(n))), error(K) {}
-  void add(Index a, Index b, double K_ab, double error_ab) override {
-    K(a, b) += K_ab;
-    error(a, b) += error_ab;
-    if (a != b) K(b, a) += K_ab, error(b, a) += error_ab;
+  void add(Index a, Index b, const ExchangeEntry& entry) override {
+    const double both = std::hypot(entry.standard_error, entry.bound);
+    K(a, b) += entry.K;
+    error(a, b) += both;
+    if (a != b) K(b, a) += entry.K, error(b, a) += both;
   }
-  Eigen::MatrixXd K, error;
+  Eigen::MatrixXd K, error;  ///< error: of sampling and quadrature
 };
 
 /// All pairs by "gauss-lambert".

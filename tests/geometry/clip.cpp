@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/overlap.h"
 #include "shapes.h"
 
 namespace interflect::geometry {
@@ -55,31 +54,6 @@ TEST(Clip, corners_on_the_plane_belong_to_the_front) {
   EXPECT_EQ(clip(square, {-Vec3::UnitX(), 0}).corners, 0);  // an edge alone is nothing
   EXPECT_EQ(clip(square, {Vec3::UnitZ(), 0}).corners, 0);   // nor is a polygon in the plane
   EXPECT_EQ(clip(square, {Vec3(1, -1, 0).normalized(), 0}).corners, 3);
-}
-
-TEST(Overlap, equals_the_area_of_the_common_part) {
-  const TriangleCorners a{Vec3(0, 0, 1), Vec3(4, 0, 1), Vec3(0, 4, 1)};
-  const TriangleCorners b{Vec3(0, 0, 1), Vec3(0, 2, 1), Vec3(2, 0, 1)};  // inside, the other way round
-  EXPECT_DOUBLE_EQ(overlap_area(a, b), 2);
-  EXPECT_DOUBLE_EQ(overlap_area(b, a), 2);
-  const TriangleCorners c{Vec3(2, 0, 1), Vec3(6, 0, 1), Vec3(2, 4, 1)};
-  EXPECT_DOUBLE_EQ(overlap_area(a, c), 2);
-  const TriangleCorners beside{Vec3(4, 0, 1), Vec3(4, 4, 1), Vec3(0, 4, 1)};  // shares the hypotenuse
-  EXPECT_NEAR(overlap_area(a, beside), 0, 1e-14);
-}
-
-TEST(Overlap, triangles_of_very_different_size_agree_either_way) {
-  Dice dice(31);
-  for (int k = 0; k < 100; ++k) {
-    const Vec3 n = dice.direction();
-    const auto axes = test::frame(n);
-    const auto at = [&](double x, double y) -> Vec3 { return x * axes.first + y * axes.second + 3 * n; };
-    const TriangleCorners large{at(0, 0), at(100, 0), at(0, 100)};
-    const double x = dice.in(-1, 1), y = dice.in(-1, 1);
-    const TriangleCorners small{at(x, y), at(x + 0.5, y),
-                                at(x, y + 0.5)};  // 40 000 times smaller, across the large one's corner
-    EXPECT_NEAR(overlap_area(large, small), overlap_area(small, large), 1e-12);
-  }
 }
 
 }  // namespace

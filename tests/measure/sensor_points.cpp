@@ -62,6 +62,27 @@ TEST(SensorPoints, a_point_on_a_surface_belongs_to_it) {
   EXPECT_EQ(scene.surface(*points[0].at.on).name, "desk/z+");
 }
 
+// A file's coordinates are rounded, and on a tilted floor that moves a point off it: below, where every ray would start
+// behind the floor, as well as above.
+TEST(SensorPoints, a_point_a_little_off_a_tilted_surface_is_moved_onto_it) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
+  for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(5e5, 5e6, 100)}) {
+    const auto at = [&](double x, double y) -> Vec3 { return turn * Vec3(x, y, 0) + shift; };
+    const geometry::PlanarPolygon floor{{at(0, 0), at(6, 0), at(6, 4), at(0, 4)}, {}};
+    const Vec3 normal = geometry::plane_of(floor.outer).normal, on_floor = at(2.1, 1.3);
+    const double ulp = 3e-16 * (shift.norm() + 7), diagonal = std::hypot(6, 4);
+    for (const double height : {-1e-10 * diagonal, 0.0, 1e-10 * diagonal}) {
+      scene::SceneBuilder builder({"y"});
+      builder.add_polygon("floor", floor, builder.add_material({}));
+      builder.scene().sensors.push_back({"point", normal, std::vector<Vec3>{on_floor + height * normal}});
+      const auto points = sensor_points(builder.finish());
+      ASSERT_TRUE(points[0].at.on.has_value());
+      EXPECT_LE(std::abs(normal.dot(points[0].at.position - floor.outer[0])), 4 * ulp) << height;
+      EXPECT_LE((points[0].at.position - on_floor).norm(), 1e-15 * diagonal + 4 * ulp) << height;
+    }
+  }
+}
+
 TEST(SensorPoints, a_point_above_or_turned_away_belongs_to_none) {
   EXPECT_FALSE(sensor_points(box_with_sensor(Vec3(1, 0.5, 0.7500001), Vec3::UnitZ()))[0].at.on.has_value());
   EXPECT_FALSE(sensor_points(box_with_sensor(Vec3(1, 0.5, 0.75), Vec3::UnitX()))[0].at.on.has_value());

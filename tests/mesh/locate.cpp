@@ -113,3 +113,8 @@ TEST(ElementMesh, refuses_elements_out_of_order) {
   EXPECT_THROW(ElementMesh({patch(1, scene::Side::front), patch(0, scene::Side::front)}), core::PreconditionError);
   EXPECT_THROW(ElementMesh({patch(0, scene::Side::back), patch(0, scene::Side::front)}), core::PreconditionError);
 }
+
+TEST(ElementMesh, refuses_an_element_without_area) {
+  const std::array<Vec3, 3> line{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)};
+  EXPECT_THROW(ElementMesh({scene::make_patch({0}, scene::Side::front, line)}), core::InputError);
+}

@@ -2,9 +2,8 @@
 
 #include <map>
 
-#include "core/random.h"
 #include "mesh/uniform.h"
-#include "scene/builder.h"
+#include "tests/support/shapes.h"
 
 namespace interflect::mesh {
 
@@ -24,32 +23,6 @@ inline geometry::PlanarPolygon l_with_hole(double scale) {
           {ring_at(scale, {at(0.5, 0.5), at(0.5, 1), at(1, 1), at(1, 0.5)})}};
 }
 
-/// The unit sphere as an icosahedron whose faces were cut into four `levels` times, outward.
-inline Triangles icosphere(int levels, double radius) {
-  const double g = (1 + std::sqrt(5.0)) / 2;
-  std::vector<Vec3> p{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                      {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  for (Vec3& x : p) x.normalize();
-  const int faces[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                            {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                            {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-  Triangles triangles;
-  for (const auto& f : faces)
-    triangles.push_back(
-        {p[static_cast<std::size_t>(f[0])], p[static_cast<std::size_t>(f[1])], p[static_cast<std::size_t>(f[2])]});
-  for (int level = 0; level < levels; ++level) {
-    Triangles finer;
-    for (const auto& [a, b, c] : triangles) {
-      const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}});
-    }
-    triangles = std::move(finer);
-  }
-  for (auto& t : triangles)
-    for (Vec3& x : t) x *= radius;
-  return triangles;
-}
-
 inline scene::Material material(scene::Sides sides = scene::Sides::front) {
   return {"m", Spectrum(0.5), Spectrum(), sides};
 }
@@ -62,7 +35,7 @@ inline scene::Scene mixed_scene(double scale = 1) {
   builder.add_box("desk", {scale * Vec3(1, 1, 0), scale * Vec3(2, 1.7, 0.7)}, one);
   builder.add_polygon("screen", {ring_at(scale, {{3, 1, 1}, {4, 1, 1}, {3.7, 1, 2.2}, {3.1, 1, 1.9}}), {}}, two);
   builder.add_polygon("shelf", l_with_hole(0.3 * scale), two);
-  builder.add_facets("lamp", icosphere(1, 0.4 * scale), one);
+  builder.add_facets("lamp", test::icosphere(1, 0.4 * scale, false), one);
   return builder.finish();
 }
 

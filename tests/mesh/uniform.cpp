@@ -171,6 +171,25 @@ TEST(Uniform, refuses_an_edge_that_is_no_positive_length) {
     EXPECT_THROW(uniform(scene, bad), core::InputError) << bad;
 }
 
+// 3 m / 1e-20 m is beyond every integer.
+TEST(Uniform, refuses_more_elements_than_can_be_numbered_in_one_line) {
+  scene::SceneBuilder builder({"grey"});
+  const auto m = builder.add_material(material());
+  builder.add_polygon("floor", {ring_at(1, {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}}), {}}, m);
+  scene::SceneBuilder of_triangles({"grey"});
+  of_triangles.add_facets("mesh", test::icosphere(0, 1, false), of_triangles.add_material(material()));
+  for (const scene::Scene& scene : {builder.finish(), of_triangles.finish(), mixed_scene()})
+    for (const double edge : {2e-5, 1e-20, 1e-200, 1e-308}) {
+      try {
+        uniform(scene, edge);
+        FAIL() << "an InputError expected: " << edge;
+      } catch (const core::InputError& error) {
+        EXPECT_EQ(core::single_line(error.what()), error.what());
+        EXPECT_NE(std::string(error.what()).find("element size"), std::string::npos) << error.what();
+      }
+    }
+}
+
 TEST(Uniform, repeats_itself_bit_by_bit) {
   const ElementMesh a = uniform(mixed_scene(), 0.2), b = uniform(mixed_scene(), 0.2);
   ASSERT_EQ(a.size(), b.size());

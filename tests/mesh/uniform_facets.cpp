@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "mesh/bisection.h"
 #include "tests/mesh/scenes.h"
 
@@ -32,7 +33,7 @@ Index euler(const ElementMesh& mesh) {
 }  // namespace
 
 TEST(Bisection, keeps_an_icosphere_closed) {
-  const scene::Scene scene = of_facets(icosphere(2, 1));
+  const scene::Scene scene = of_facets(test::icosphere(2, 1, false));
   for (const double edge : {1.0, 0.2, 0.07}) {
     const ElementMesh mesh = uniform(scene, edge);
     EXPECT_TRUE(EdgeCensus(mesh, mesh.parts()[0]).open().empty());
@@ -43,7 +44,7 @@ TEST(Bisection, keeps_an_icosphere_closed) {
 }
 
 TEST(Bisection, leaves_triangles_alone_that_are_small_enough) {
-  const Triangles sphere = icosphere(1, 1);
+  const Triangles sphere = test::icosphere(1, 1, false);
   const ElementMesh mesh = uniform(of_facets(sphere), 2);
   ASSERT_EQ(mesh.size(), static_cast<Index>(sphere.size()));
   for (std::uint32_t i = 0; i < mesh.size(); ++i)
@@ -67,6 +68,56 @@ TEST(Bisection, keeps_needles) {
   const ElementMesh mesh = uniform(of_facets(needle), 0.1);
   EXPECT_LE(longest_edge(mesh), 0.1 * (1 + 1e-9));
   EXPECT_NEAR(total_area(mesh), 0.5e-7, 1e-12 * 0.5e-7);
+}
+
+// At 5e6 m coordinates are 9.3e-10 m apart.  Of the first facet, one of them thick, not even a quarter has an area that
+// coordinates can hold: it is refused in a line that says what and where.  One of 60 is cut into quarters but not into
+// pieces of 0.1 m: it stays whole, and its neighbour is cut nonetheless.
+TEST(Bisection, of_needles_thinner_than_their_coordinates_resolve_is_refused_or_left_undone) {
+  const Vec3 far(5e6, 5e6, 0);
+  const auto at = [&](double x, double y) -> Vec3 { return far + Vec3(x, y, 0); };
+  const double step = 0x1p-30;
+  try {
+    uniform(of_facets({{at(0, 0), at(10, 0), at(5, step)}}), 0.5);
+    FAIL() << "an InputError expected";
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(core::single_line(error.what()), error.what());
+    EXPECT_NE(std::string(error.what()).find("'mesh'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("(5000000, 5000000, 0)"), std::string::npos) << error.what();
+  }
+  const scene::Scene scene = of_facets({{at(0, 0), at(10, 0), at(5, 60 * step)}, {at(10, 0), at(0, 0), at(5, -4)}});
+  const ElementMesh mesh = uniform(scene, 0.1);
+  EXPECT_EQ(std::count_if(mesh.patches().begin(), mesh.patches().end(),
+                          [](const auto& patch) { return longest_edge(ElementMesh({patch})) > 0.1 * (1 + 1e-9); }),
+            1);
+  EXPECT_NEAR(total_area(mesh), scene.area({0}), 1e-9);
+  EXPECT_EQ(quartered(mesh).size(), 4 * mesh.size());
+  EXPECT_NEAR(predicted_elements(scene, 0.1) / static_cast<double>(mesh.size()), 1, 0.2);
+}
+
+// Needles of all shapes and attitudes, from far below what coordinates resolve to far above, around the threshold above
+// all.
+TEST(Bisection, leaves_no_element_without_area_and_turns_none_over) {
+  core::RandomNumbers random(6, 0, 0);
+  int refused = 0, whole = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Matrix3d turn = test::random_rotation(random);
+    const double height = 0x1p-30 * std::pow(2.0, 14 * random.next()), apex = 0.1 + 0.8 * random.next();
+    const auto at = [&](double x, double y) -> Vec3 { return Vec3(5e6, -5e6, 3e6) + turn * Vec3(x, y, 0); };
+    const scene::Scene scene = of_facets({{at(0, 0), at(4, 0), at(4 * apex, height)}});
+    try {
+      const ElementMesh mesh = uniform(scene, 0.3), fine = quartered(mesh);
+      whole += mesh.size() == 1;
+      for (const auto& patch : fine.patches()) EXPECT_GT(patch.normal().dot(scene.facets[0].normal), 0) << height;
+      EXPECT_EQ(predicted_elements(scene, 0.3) == 1, mesh.size() == 1);
+    } catch (const core::InputError&) {
+      ++refused;
+      EXPECT_THROW(uniform(scene, 10), core::InputError) << "cutting must not be what makes it so: " << height;
+    }
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(whole, 20);
+  EXPECT_LT(refused + whole, 800);
 }
 
 // Three sheets along one edge, two sheets back to back, two facets that run along their edge in the same direction, a

@@ -1,7 +1,7 @@
 #include "tests/montecarlo/statistics.h"
 #include "tests/support/shapes.h"
 
-// Closed rooms: what is emitted is absorbed.  Truths: truths.md 2.0, 2.1, 2.6, or derived beside the test.
+// Closed rooms: what is emitted is absorbed.  Truths: docs/truths.md 2.0, 2.1, 2.6, or derived beside the test.
 namespace interflect::montecarlo {
 namespace {
 
@@ -87,9 +87,9 @@ TEST(PathTracer, finds_all_that_is_emitted_absorbed_by_the_walls_of_a_closed_roo
   }
 }
 
-// Sphere, E = 1 + cos(theta), rho = 1/2: B = E + rho m with m = <E> / (1 - rho) = 2, so H = 2 everywhere.  Facets with
-// chords of length h see each other as the sphere's caps would up to O(h²): at level 3, h = 0.15, allow 0.15² = 2 %.
-// The mean over the closed polyhedron is <E> / (1 - rho) exactly.
+// 2.1: sphere, E = 1 + cos(theta), rho = 1/2: B = E + rho m with m = <E> / (1 - rho) = 2, so H = 2 everywhere.  Facets
+// with chords of length h see each other as the sphere's caps would up to O(h²): at level 3, h = 0.15, 0.15² = 0.02 is
+// allowed.  The mean over the closed polyhedron is <E> / (1 - rho) exactly.
 TEST(PathTracer, finds_a_uniform_irradiance_in_a_sphere_of_any_emission) {
   SceneBuilder builder({"grey"});
   double flux = 0;
@@ -108,7 +108,7 @@ TEST(PathTracer, finds_a_uniform_irradiance_in_a_sphere_of_any_emission) {
   expect_agreement(scene, questions, {.samples = 40'000}, 0.01);
 }
 
-// Unit cube, floor emits 1, one reflectance (truths 2.6, continuous limit): H = (B - E) / rho.
+// Unit cube, floor emits 1, one reflectance (2.6, continuous limit): H = (B - E) / rho.
 TEST(PathTracer, finds_the_irradiance_of_a_cube_with_one_emitting_face) {
   struct Case {
     double rho, floor, ceiling, wall, digits;

@@ -1,7 +1,7 @@
 #include "tests/montecarlo/statistics.h"
 #include "tests/support/shapes.h"
 
-// Plates in the open.  Truths: truths.md 2.4 and 2.11, or closed forms beside the test.
+// Plates in the open.  Truths: docs/truths.md 2.4 and 2.11, or closed forms beside the test.
 namespace interflect::montecarlo {
 namespace {
 
@@ -100,7 +100,7 @@ double to_rectangle(double x0, double x1, double y0, double y1, double h) {
 }
 
 TEST(PathTracer, finds_form_factors_both_ways_between_areas_of_one_to_400) {
-  EXPECT_NEAR(to_rectangle(-0.5, 0.5, -0.5, 0.5, 1), 0.2394564705, 1e-10);  // methods_montecarlo_core T 6
+  EXPECT_NEAR(to_rectangle(-0.5, 0.5, -0.5, 0.5, 1), 0.2394564705, 1e-10);  // 4/pi sqrt(1/5) atan(sqrt(1/5))
   // Mean over the small square (side 0.05) by Gauss' three points: error below 1e-9.
   constexpr std::array<double, 3> place{-0.774596669241483, 0, 0.774596669241483}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
   double F = 0;

@@ -27,7 +27,7 @@ TEST(SensorSummary, statistics_are_those_of_the_weighted_values) {
   EXPECT_DOUBLE_EQ(desk.mean, 40);
   EXPECT_DOUBLE_EQ(desk.maximum, 60);
   EXPECT_DOUBLE_EQ(desk.uniformity(), 0.5);
-  EXPECT_NEAR(desk.error, 2 * (6 + 1.96 * 0.5) / 3, 1e-12);  // noise: sqrt(0.3² + 0.4²) = 0.5
+  EXPECT_NEAR(desk.error, 2 * (6 + normal_95 * 0.5) / 3, 1e-12);  // noise: sqrt(0.3² + 0.4²) = 0.5
   EXPECT_DOUBLE_EQ(summaries[1].mean, 14);
 }
 

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include "core/error.h"
+#include "results/output_directory.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace interflect;
@@ -80,25 +81,36 @@ TEST(AtomicFile, files_get_the_permissions_that_other_programs_give) {
             std::filesystem::status(scratch / "theirs").permissions());
 }
 
-TEST(AtomicFile, an_output_directory_is_made_with_its_parents_and_left_empty) {
+TEST(OutputDirectory, is_made_with_its_parents_and_kept_with_what_is_in_it) {
   const test::TemporaryFolder scratch;
-  prepare_output_directory(scratch / "a/b/c");
-  prepare_output_directory(scratch / "a/b/c");
-  EXPECT_TRUE(std::filesystem::is_empty(scratch / "a/b/c"));
+  {
+    const OutputDirectory first(scratch / "a/b/c"), second(scratch / "a/b/c");
+    EXPECT_TRUE(std::filesystem::is_empty(scratch / "a/b/c"));
+    write_atomically(scratch / "a/b/file", "x");
+  }
+  EXPECT_TRUE(std::filesystem::exists(scratch / "a/b/file"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a/b/c")) << "it is empty";
 }
 
-TEST(AtomicFile, an_output_directory_that_cannot_be_used_is_refused_before_any_work) {
+TEST(OutputDirectory, leaves_what_was_there_and_nothing_that_it_made_for_nothing) {
+  const test::TemporaryFolder scratch;
+  std::filesystem::create_directory(scratch / "ours");
+  { const OutputDirectory directory(scratch / "ours"), inner(scratch / "ours/x/y/"); }
+  EXPECT_TRUE(std::filesystem::is_empty(scratch / "ours"));
+  EXPECT_EQ(scratch.files(), 1u);
+}
+
+TEST(OutputDirectory, that_cannot_be_used_is_refused_before_any_work) {
   const test::TemporaryFolder scratch;
   std::ofstream(scratch / "file") << "x";
-  EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "file"); }),
+  EXPECT_EQ(message_of([&] { OutputDirectory(scratch / "file"); }),
             (scratch / "file").string() + ": cannot be written: Not a directory");
-  EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "file/out"); }),
+  EXPECT_EQ(message_of([&] { OutputDirectory(scratch / "file/out"); }),
             (scratch / "file/out").string() + ": cannot be written: Not a directory");
-  EXPECT_EQ(message_of([&] {
-              prepare_output_directory("/proc/interflect");
-            }).rfind("/proc/interflect: cannot be written: ", 0),
+  EXPECT_EQ(message_of([] { OutputDirectory("/proc/interflect"); }).rfind("/proc/interflect: cannot be written: ", 0),
             0u);
   const FullDisk full(0);
-  EXPECT_EQ(message_of([&] { prepare_output_directory(scratch / "full"); }),
+  EXPECT_EQ(message_of([&] { OutputDirectory(scratch / "full"); }),
             (scratch / "full").string() + ": cannot be written: File too large");
+  EXPECT_EQ(scratch.files(), 1u);
 }

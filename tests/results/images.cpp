@@ -41,6 +41,10 @@ TEST(Images, exr_reads_back_bit_by_bit_in_the_order_of_the_channels) {
   EXPECT_EQ(scratch.files(), 1u);
 }
 
+TEST(Images, channels_that_would_share_a_name_in_an_exr_are_a_bug) {
+  EXPECT_THROW(exr_bytes(gradient(2, 2, {"r", "R"})), core::PreconditionError);
+}
+
 TEST(Images, what_is_no_exr_is_refused_in_one_line) {
   const test::TemporaryFolder scratch;
   write_atomically(scratch / "image.exr", "this is no image");

@@ -15,6 +15,7 @@ using nlohmann::json;
 TEST(Record, keeps_its_order_and_every_kind_of_value) {
   Record record;
   record.add("zeta", "text").add("alpha", 1.5).add("count", std::uint64_t{1} << 60).add("flag", true);
+  record.add("seed", ~std::uint64_t{0}).add("below", -7);
   record.section("inner").add("numbers", Record::Numbers{1, 2}).add("words", Record::Strings{"a", "b"});
   record.add("list", Record::List{Record().add("i", 1), Record().add("i", 2)});
   Spectrum s;
@@ -23,6 +24,7 @@ TEST(Record, keeps_its_order_and_every_kind_of_value) {
   const std::string text = json_text(record);
   EXPECT_LT(text.find("zeta"), text.find("alpha"));
   EXPECT_EQ(json::parse(text), json::parse(R"({"zeta": "text", "alpha": 1.5, "count": 1152921504606846976, "flag": true,
+    "seed": 18446744073709551615, "below": -7,
     "inner": {"numbers": [1.0, 2.0], "words": ["a", "b"]}, "list": [{"i": 1}, {"i": 2}], "spectrum": [7.0]})"));
 }
 

@@ -67,6 +67,19 @@ TEST(BadMesh, unmapped_materials_are_listed) {
             "s.json:5: /geometry/0/materials/Ceil: the material 'whit' is not known: did you mean 'white'?");
 }
 
+TEST(BadMesh, names_of_materials_are_looked_up_before_a_face_asks_for_them) {
+  const std::string text = corners + "usemtl Ceil\nf 1 2 3\n";
+  EXPECT_EQ(said_of("m.obj", text, R"(, "materials": {"Ceil": "white"}, "unmapped": "alsonot")"),
+            "s.json:5: /geometry/0/unmapped: the material 'alsonot' is not known: one of white is expected");
+  EXPECT_EQ(said_of("m.obj", text, R"(, "materials": {"Ceil": "white", "Typo": "nosuch"})"),
+            "s.json:5: /geometry/0/materials/Typo: the material 'nosuch' is not known: one of white is expected");
+}
+
+TEST(BadMesh, a_weld_below_rounding_is_refused_where_it_stands) {
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\n", R"(, "unmapped": "white", "repair": {"weld": 1e-300})"),
+            "s.json:5: /geometry/0/repair/weld: a weld of less than 1e-15 of the coordinates is below their rounding");
+}
+
 TEST(BadMesh, unknown_formats_are_named) {
   EXPECT_EQ(said_of("m.3ds", "x"),
             "m.3ds: the mesh format '.3ds' is not known: one of .obj, .ply, .stl, .gltf, .glb is expected");

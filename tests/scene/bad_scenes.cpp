@@ -107,7 +107,12 @@ TEST(BadScene, numbers_are_finite) {
 TEST(BadScene, channels_agree) {
   expect_all(
       {{{R"("channels": [])"}, "s.json:4: /channels: at least 1 elements are expected, not 0"},
-       {{R"("channels": ["a", "a"])"}, "s.json:4: /channels/1: two channels have the name 'a'"},
+       {{R"("channels": ["a", "a"])"},
+        "s.json:4: /channels/1: two channels have the name 'a' (upper and lower case are one)"},
+       {{R"("channels": ["r", "R"])"},  // a picture would keep one of them
+        "s.json:4: /channels/1: two channels have the name 'R' (upper and lower case are one)"},
+       {{R"("channels": ["a", "a.error"])"},
+        "s.json:4: /channels/1: a channel's name does not end in '.error': pictures keep errors there"},
        {{R"("channels": ["a", "b"], "weights": [1])"}, "s.json:4: /weights: 1 numbers for a scene of 2 channels"},
        {{R"("weights": 0)"}, "s.json:4: /weights: a weight must be positive"},
        {{R"("channels": ["y"])", R"("white": {"reflectance": [0.5, 0.5, 0.5]})"},
@@ -193,6 +198,14 @@ TEST(BadScene, sensors_measure_somewhere) {
         "s.json:4: /sensors/0/grid/spacing: 0 is not positive"},
        {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1,0,0], "v": [0,1,0], "spacing": 1e-9})"),
         "s.json:4: /sensors/0/grid/spacing: more than 1e+07 points"},
+       {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1e6,0,0], "v": [0,1e6,0], "spacing": "en12464"})"),
+        "s.json:4: /sensors/0/grid/spacing: more than 1e+07 points"},
+       {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1000,0,0], "v": [0,1e-9,0], "spacing": 1e-6})"),
+        "s.json:4: /sensors/0/grid/spacing: more than 1e+07 points"},
+       {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1e9,0,0], "v": [0,1e9,0], "spacing": 1e-300})"),
+        "s.json:4: /sensors/0/grid/spacing: more than 1e+07 points"},
+       {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1,0,0], "v": [0,1,0], "counts": [10000, 1001]})"),
+        "s.json:4: /sensors/0/grid/counts: more than 1e+07 points"},
        {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1,0,0], "v": [0,1,0], "counts": [0, 3]})"),
         "s.json:4: /sensors/0/grid/counts/0: 0 is outside 1..1000000"},
        {sensor(n + R"("grid": {"origin": [0,0,0], "u": [1,0,0], "v": [0,1,0], "spacing": 0.1}, "exclude_border": 0.5)"),

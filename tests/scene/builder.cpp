@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <set>
+
 #include "core/error.h"
 
 namespace interflect::scene {
@@ -45,6 +48,35 @@ TEST(Builder, names_become_unique) {
   EXPECT_EQ(names, (std::vector<std::string>{"a", "a-3", "a-2", "surface", "surface-2"}));
 }
 
+TEST(Builder, names_of_backs_are_unique_too_and_what_that_changes_is_said) {
+  const PlanarPolygon p{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {}};
+  for (const bool back_first : {false, true}) {
+    SceneBuilder builder({"y"});
+    const MaterialId one = builder.add_material(grey(0.5));
+    const MaterialId both = builder.add_material({"leaf", Spectrum(0.5), Spectrum(), Sides::both});
+    if (back_first) builder.add_polygon("a/back", p, one);
+    builder.add_polygon("a", p, both);
+    if (!back_first) builder.add_polygon("a/back", p, one);
+    builder.add_polygon("b", p, one);
+    builder.add_polygon("b/back", p, one);  // b's back bears no name: it is black
+    const Scene scene = builder.finish("s.json");
+    std::set<std::string> names;
+    std::size_t sides = 0;
+    for (const SurfaceId id : scene.surface_ids())
+      for (const Side side : {Side::front, Side::back}) {
+        if (!scene.material(id).active(side)) continue;
+        names.insert(scene.side_name(id, side));
+        ++sides;
+      }
+    EXPECT_EQ(names.size(), sides);
+    EXPECT_TRUE(names.contains("b/back"));
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0].line(), std::string("s.json: the surface ") +
+                                            (back_first ? "'a' is called 'a-2'" : "'a/back' is called 'a/back-2'") +
+                                            ": the back of a surface is called NAME/back, and that name is taken");
+  }
+}
+
 TEST(Builder, facets_without_area_are_refused_and_leave_nothing_behind) {
   SceneBuilder builder({"y"});
   const MaterialId m = builder.add_material(grey(0.5));
@@ -74,6 +106,15 @@ TEST(Patch, centroid_and_area_of_a_quad_are_those_of_its_halves) {
   EXPECT_DOUBLE_EQ(patch.area, 6);
   EXPECT_NEAR((patch.centroid() - Vec3(14.0 / 9, 8.0 / 9, 1)).norm(), 0, 1e-15);
   EXPECT_EQ(patch.normal(), Vec3::UnitZ());
+}
+
+TEST(Scene, a_channel_without_weight_is_left_out_even_where_it_is_infinite) {
+  Scene scene;
+  scene.channels = {"visible", "heat"};
+  scene.weights[0] = 1;
+  Spectrum error(0.5);
+  error[1] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(scene.weigh(error), 0.5);
 }
 
 TEST(Scene, flux_is_that_of_fronts_and_numbers_are_weighed) {

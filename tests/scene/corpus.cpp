@@ -30,7 +30,8 @@ class Corpus : public testing::Test {
     io::MeshFile mesh = io::read_mesh(file, file.string());
     SceneBuilder builder({"y"});
     const MaterialId grey = builder.add_material({"grey", Spectrum(0.5), Spectrum(), Sides::both});
-    io::place_vertices(mesh, {}, 0);
+    io::place_vertices(mesh, {});
+    io::weld_vertices(mesh, 0);
     io::import_mesh(builder, mesh, std::vector<MaterialId>(mesh.materials.size(), grey), {}, file.string());
     return builder.finish();
   }

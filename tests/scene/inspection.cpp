@@ -69,6 +69,7 @@ TEST(Inspect, a_missing_wall_is_found_by_its_rim) {
   EXPECT_FALSE(inspection.closed());
   EXPECT_NEAR(inspection.open_edge_length, 18, 1e-12);
   ASSERT_EQ(inspection.findings.size(), 4u);
+  EXPECT_EQ(describe(inspection.findings[0].kind), "gap (open edge)");
   EXPECT_DOUBLE_EQ(inspection.findings[0].size, 5);  // the largest first
   EXPECT_EQ(inspection.findings[0].where.z(), 3);
 }

@@ -67,6 +67,16 @@ TEST(MeshFile, obj_grammar_is_understood) {
   EXPECT_EQ(scene.facets[0].corner[2], Vec3(1, 1, 0));
 }
 
+TEST(MeshFile, names_are_kept_however_long_they_are) {
+  const Folder folder;
+  const std::string wing(80, 'w');
+  folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng " + wing + "1\nf 1 2 3\ng " + wing + "2\nf 1 3 4\n");
+  const Scene scene = scene_of(folder, "m.obj");
+  ASSERT_EQ(scene.surfaces.size(), 2u);
+  EXPECT_EQ(scene.surfaces[0].name, wing + "1");
+  EXPECT_EQ(scene.surfaces[1].name, wing + "2");
+}
+
 TEST(MeshFile, a_surface_that_is_one_polygon_keeps_its_outline) {
   const Folder folder;
   folder.write(
@@ -184,6 +194,30 @@ TEST(MeshFile, gltf_nodes_place_their_meshes) {
   ASSERT_EQ(scene.facets.size(), 1u);
   EXPECT_EQ(scene.facets[0].corner[1], Vec3(2, 0, 5));
   EXPECT_EQ(scene.facets[0].normal, Vec3::UnitZ());
+}
+
+/// A chunk of a GLB file: its size, its kind, its content.
+std::string chunk(const std::string& kind, const std::string& content) {
+  return bytes_of(static_cast<std::uint32_t>(content.size())) + kind + content;
+}
+
+TEST(MeshFile, glb_holds_text_and_corners_in_one_file) {
+  std::string text =
+      R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  "meshes": [{"name": "tri", "primitives": [{"attributes": {"POSITION": 0}}]}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36}]})";
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::string corners;
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) corners += bytes_of(x);
+  const std::string body = chunk("JSON", text) + chunk(std::string("BIN\0", 4), corners);
+  const std::string head = "glTF" + bytes_of(std::uint32_t{2}) + bytes_of(static_cast<std::uint32_t>(12 + body.size()));
+  const Folder folder;
+  folder.write("m.glb", head + body);
+  const Scene scene = scene_of(folder, "m.glb");
+  ASSERT_EQ(scene.facets.size(), 1u);
+  EXPECT_EQ(scene.facets[0].corner[1], Vec3(1, 0, 0));
+  EXPECT_EQ(scene.facets[0].corner[2], Vec3(0, 1, 0));
 }
 
 TEST(MeshFile, mirrored_nodes_keep_the_front_in_front) {

@@ -128,6 +128,39 @@ TEST_P(EverySolver, refuses_an_operator_that_holds_a_nan) {
   EXPECT_THROW(solve(GetParam(), {K, Reflection(ColumnMatrix::Constant(10, 1, 0.5)), e}, x), core::InputError);
 }
 
+// A needle's element whose area is lost to rounding: G = 0 would make b infinite and the message speak of K.
+TEST_P(EverySolver, refuses_an_element_without_area_in_one_line_that_says_so) {
+  for (const double area : {0.0, -1.0, not_a_number, std::numeric_limits<double>::infinity()}) {
+    Eigen::VectorXd areas = Eigen::VectorXd::Ones(10);
+    areas(4) = area;
+    const FullOperator K(random_operator(10, 32).matrix(), areas);
+    const ColumnMatrix e = ColumnMatrix::Ones(10, 1);
+    ColumnMatrix x = e;
+    try {
+      solve(GetParam(), {K, Reflection(ColumnMatrix::Constant(10, 1, 0.5)), e}, x);
+      FAIL() << "an InputError expected: " << area;
+    } catch (const core::InputError& error) {
+      EXPECT_EQ(core::single_line(error.what()), error.what());
+      EXPECT_NE(std::string(error.what()).find("unknown 4: the area"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_P(EverySolver, leaves_the_start_as_it_was_where_it_fails) {
+  for (const bool symmetric : {true, false}) {
+    Eigen::MatrixXd matrix = random_operator(10, 33).matrix();
+    matrix(2, 3) = matrix(3, 2) = not_a_number;
+    FullOperator K(matrix, Eigen::VectorXd::Ones(10));
+    K.says_symmetric = symmetric;
+    const ColumnMatrix e = ColumnMatrix::Ones(10, 2), start = random_columns(10, 2, 1, 2, 34);
+    core::LocalRun run;
+    SolverState state{start, 7};
+    EXPECT_THROW(make_solver(GetParam())->advance({K, Reflection(0.5 * e), e}, state, {}, run), core::InputError);
+    EXPECT_EQ(state.x, start);
+    EXPECT_EQ(state.step, 7);
+  }
+}
+
 TEST_P(EverySolver, stops_between_sweeps_when_asked_to) {
   const FullOperator K = random_operator(40, 21);
   const ColumnMatrix rho = ColumnMatrix::Constant(40, 1, 0.9), e = ColumnMatrix::Ones(40, 1);

@@ -31,6 +31,7 @@ TEST(Certificate, good_data_pass_with_a_verdict_in_one_sentence) {
   EXPECT_EQ(c.verdict.rfind("FEM within 1.", 0), 0u) << c.verdict;
   EXPECT_NE(c.verdict.find(" % (L2 of H) of the path-traced reference, whose own 95 % error is 1."), std::string::npos)
       << c.verdict;
+  EXPECT_NE(c.verdict.find(" %; bias "), std::string::npos) << c.verdict;
   EXPECT_EQ(c.elements, 500u);
 }
 
@@ -64,6 +65,47 @@ TEST(Certificate, one_wrong_element_breaks_a_guarantee_and_is_remarked_upon_wher
   const Certificate estimated = certificate_of(judged);
   EXPECT_TRUE(estimated.passed);
   EXPECT_TRUE(mentions(estimated.remarks, "element 42"));
+}
+
+// The worst of all need not be the one whose bound was guaranteed.
+TEST(Certificate, names_the_measurement_whose_guarantee_is_broken) {
+  std::vector<Judged> judged = synthetic::judged({.bound = 0.02}, 1);
+  judged[7].fem.value *= 1.6;
+  judged[42].fem.value *= 1.3;
+  judged[42].fem.claim = Claim::guaranteed;
+  const Certificate c = certificate_of(judged);
+  EXPECT_TRUE(mentions(c.remarks, "the largest at element 7"));
+  EXPECT_TRUE(mentions(c.reasons, "guaranteed error bound is broken at element 42"));
+}
+
+// 0.2 % at 1 % noise and bounds of 3 %: neither a single z nor their mean sees it.
+TEST(Certificate, a_loss_that_bounds_would_explain_is_remarked_upon) {
+  const Certificate loss = certificate_of(synthetic::judged({.count = 10000, .bias = -0.002, .bound = 0.03}, 1));
+  EXPECT_TRUE(loss.passed) << loss.verdict;
+  EXPECT_TRUE(mentions(loss.remarks, "FEM's mean is off beyond chance (95 % interval): illuminance -0.2"));
+  EXPECT_NE(loss.verdict.find("; bias -0.2"), std::string::npos) << loss.verdict;
+  EXPECT_FALSE(
+      mentions(certificate_of(synthetic::judged({.count = 10000, .bound = 0.03}, 1)).remarks, "beyond chance"));
+}
+
+// At the level alpha: in 1 of 100 sets; 300 of them, 4 sigma = 7.
+TEST(Certificate, a_bias_is_remarked_upon_by_chance_as_rarely_as_it_says) {
+  int remarked = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed)
+    remarked += mentions(certificate_of(synthetic::judged({.bound = 0.03}, seed)).remarks, "mean is off") ? 1 : 0;
+  EXPECT_LE(remarked, 3 + 7);
+}
+
+// Surfaces, all of them judged, tell the mean better than chosen elements do.
+TEST(Certificate, the_bias_is_told_by_what_knows_it_better) {
+  std::vector<Judged> judged = synthetic::judged({}, 1);
+  for (const Judged& j : synthetic::judged({.noise = 1e-4, .claimed_noise = 1e-4, .bias = 0.01}, 2)) {
+    judged.push_back(j);
+    judged.back().kind = Judged::Kind::surface;
+  }
+  const Judgement j = certificate_of(judged).judgements[0];
+  EXPECT_EQ(j.bias().value, j.surfaces.bias.value);
+  EXPECT_NEAR(j.bias().value, 0.01, 1e-4);
 }
 
 TEST(Certificate, a_reference_that_is_too_noisy_judges_nothing) {
@@ -133,6 +175,40 @@ TEST(Certificate, expectations_of_the_scene_are_checked_against_both_methods) {
   EXPECT_TRUE(mentions(c.reasons, "sensor desk: mean is 200 by FEM"));
 }
 
+/// A sensor of points that are all 100 by FEM; by path tracing as given, with a standard error of 1.
+Certificate extremes(const std::vector<double>& traced, scene::Expected::Statistic statistic) {
+  scene::Scene scene = synthetic::scene();
+  scene.expected = {{"desk", statistic, 100, 0, ""}};
+  std::vector<Judged> judged;
+  for (double value : traced) {
+    Judged point;
+    point.kind = Judged::Kind::sensor;
+    point.group = "desk";
+    point.fem = {Spectrum(100), Spectrum::zero(), Spectrum(1), Claim::estimated, 0};
+    point.mc = unbiased_estimate(Spectrum(value), Spectrum(1), 100);
+    judged.push_back(point);
+  }
+  return certificate_of(judged, scene);
+}
+
+// Of 1 000 normal numbers the least lies at -3.24 in the mean: 3 standard errors of one would refuse most sensors.  The
+// limit of all is 4.7; that of one point stays at 3.
+TEST(Certificate, the_least_of_many_noisy_points_may_lie_as_low_as_chance_puts_it) {
+  using Statistic = scene::Expected::Statistic;
+  std::vector<double> many(1000, 100.0);
+  for (const double off : {3.9, 5.0}) {
+    many[7] = 100 - off;
+    EXPECT_EQ(extremes(many, Statistic::min).expected[0].mc_agrees, off < 4.5) << off;
+    many[7] = 100 + off;
+    EXPECT_EQ(extremes(many, Statistic::max).expected[0].mc_agrees, off < 4.5) << off;
+    EXPECT_EQ(extremes({100 + off}, Statistic::min).expected[0].mc_agrees, false) << off;
+    many[7] = 100;
+  }
+  EXPECT_TRUE(extremes({102.9}, Statistic::max).expected[0].mc_agrees);
+  // Nor may all points lie above what is expected of the least.
+  EXPECT_FALSE(extremes(std::vector<double>(1000, 105.0), Statistic::min).expected[0].mc_agrees);
+}
+
 TEST(Certificate, nothing_judged_is_not_a_pass) { EXPECT_FALSE(certificate_of({}).passed); }
 
 TEST(Certificate, a_sampled_balance_adds_what_surfaces_absorb_with_its_error) {
@@ -144,4 +220,6 @@ TEST(Certificate, a_sampled_balance_adds_what_surfaces_absorb_with_its_error) {
   EXPECT_DOUBLE_EQ(b.absorbed[0], 70);
   EXPECT_DOUBLE_EQ(b.lost[0], 30);
   EXPECT_NEAR(b.standard_error[0], std::hypot(0.3, 0.3), 1e-15);
+  EXPECT_FALSE(b.on_backs.has_value());  // it is not known what of the loss hit backs
+  EXPECT_FALSE(b.residual.has_value());
 }

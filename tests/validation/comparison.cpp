@@ -44,6 +44,25 @@ TEST(Comparison, an_unknown_bound_or_standard_error_never_agrees) {
   }
 }
 
+TEST(Comparison, the_noise_of_a_weighted_value_is_measured_or_bounded_and_says_which) {
+  const scene::Scene two = synthetic::scene({"a", "b"});
+  const std::vector<Reading> readings = readings_of(two);
+  Estimate e = unbiased_estimate(Spectrum(10), Spectrum::zero(), 100);
+  e.standard_error[0] = 3, e.standard_error[1] = 1;
+  const Noise bounded = readings[0].noise(e);
+  EXPECT_DOUBLE_EQ(bounded.standard_error, (3.0 + 1.0) / 2);
+  EXPECT_FALSE(bounded.exact);
+  e.weighed_standard_error = 1.25;
+  const Noise measured = readings[0].noise(e);
+  EXPECT_EQ(measured.standard_error, 1.25);
+  EXPECT_TRUE(measured.exact);
+  EXPECT_EQ(readings[0].noise(scaled(e, -2)).standard_error, 2.5);
+  const Noise channel = readings[1].noise(e);  // its own, whatever the weighted value's
+  EXPECT_EQ(channel.standard_error, 3);
+  EXPECT_TRUE(channel.exact);
+  EXPECT_FALSE(readings[1].noise(unbiased_estimate(Spectrum::zero(), Spectrum(1), 100)).exact);  // rule of three
+}
+
 TEST(Comparison, two_exact_answers_must_be_equal_up_to_rounding) {
   EXPECT_TRUE(difference(one(0, 0, 0, 0, 0), synthetic::grey).agrees);
   EXPECT_TRUE(difference(one(1 + 1e-15, 1, 0, 0, 0), synthetic::grey).agrees);
@@ -86,6 +105,7 @@ TEST(Comparison, a_loss_that_no_single_z_sees_shows_in_their_mean) {
   EXPECT_FALSE(compare(synthetic::judged({.count = 10000}, 3), synthetic::grey, z_max).drifts());
 }
 
+// What the mean cannot see, however many measurements there are: Norms::bias tells it.
 TEST(Comparison, a_loss_inside_the_error_bounds_is_no_drift) {
   const synthetic::Plan loss{.count = 10000, .bias = -0.002, .bound = 0.003};
   EXPECT_FALSE(compare(synthetic::judged(loss, 3), synthetic::grey, sidak_z_max(0.01, 10001)).drifts());

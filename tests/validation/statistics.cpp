@@ -30,29 +30,8 @@ TEST(Statistics, the_normal_quantile_inverts_the_distribution_in_both_tails) {
 TEST(Statistics, probabilities_outside_the_unit_interval_are_refused) {
   for (double p : {0.0, 1.0, -0.1, 2.0, std::nan("")}) {
     EXPECT_THROW(normal_quantile(p), core::PreconditionError);
-    EXPECT_THROW(student_t_quantile(p, 3), core::PreconditionError);
     EXPECT_THROW(sidak_level(p, 3), core::PreconditionError);
   }
-}
-
-TEST(Statistics, the_t_quantile_has_its_tabulated_values) {
-  EXPECT_NEAR(student_t_quantile(0.975, 7), 2.364624, 5e-7);
-  EXPECT_NEAR(student_t_quantile(0.975, 15), 2.131450, 5e-7);
-  EXPECT_NEAR(student_t_quantile(0.975, 31), 2.039513, 5e-7);
-  EXPECT_NEAR(student_t_quantile(0.975, 63), 1.998341, 5e-7);
-  // nu = 1 is Cauchy's distribution, tan(pi (p - 1/2)); nu = 2 has (2p - 1) / sqrt(2 p (1 - p)).
-  EXPECT_NEAR(student_t_quantile(0.975, 1) / std::tan(0.475 * 3.14159265358979324), 1, 1e-12);
-  EXPECT_NEAR(student_t_quantile(0.9, 2), 0.8 / std::sqrt(0.18), 1e-12);
-  EXPECT_EQ(student_t_quantile(0.025, 7), -student_t_quantile(0.975, 7));
-  EXPECT_EQ(student_t_quantile(0.5, 7), 0);
-}
-
-TEST(Statistics, the_t_quantile_is_continuous_where_its_formula_changes_and_tends_to_the_normal_one) {
-  // Exact sums up to 10 000 degrees, a series above: the quantile changes by (z³ + z)/(4 nu²) ~ 2.4e-8 per degree here.
-  EXPECT_NEAR(student_t_quantile(0.975, 10001) - student_t_quantile(0.975, 10000), -2.37e-8, 1e-9);
-  EXPECT_NEAR(student_t_quantile(0.975, 1000000), normal_quantile(0.975), 3e-6);
-  EXPECT_NEAR(student_t_cdf(student_t_quantile(0.99, 20000), 20000), 0.99, 1e-10);
-  EXPECT_NEAR(student_t_cdf(student_t_quantile(0.99, 5), 5), 0.99, 1e-14);
 }
 
 TEST(Statistics, sidaks_limit_has_its_tabulated_values) {

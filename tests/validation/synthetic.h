@@ -29,8 +29,11 @@ struct Plan {
   double claimed_noise = 0.01;  ///< what it says it is
   double bias = 0;              ///< of FEM, relative to H, everywhere
   double spread = 0;            ///< of FEM's further errors, relative to H, normally distributed
+  double fem_noise = 0;         ///< FEM's own standard error, relative to H: as it is and as it says
   double bound = 0;             ///< relative to H
   Claim claim = Claim::estimated;
+  int channels = 1;           ///< of independent noise and spread; 1: all channels are the same
+  bool knows_weighed = true;  ///< the reference tells the noise of the mean of the channels
 };
 
 /// H from 50 to 150, areas over a factor of 100, every tenth emitting, ten surfaces with equal shares of elements.
@@ -42,15 +45,22 @@ inline std::vector<validation::Judged> judged(const Plan& plan, std::uint64_t se
   for (int j = 0; j < plan.count; ++j) {
     core::RandomNumbers random(seed, 7, static_cast<std::uint64_t>(j));
     const double H = truth(j);
-    const double fem = H * (1 + plan.bias + plan.spread * normal(random)), mc = H * (1 + plan.noise * normal(random));
+    Spectrum fem, mc;
+    for (int c = 0; c < plan.channels; ++c) {
+      fem[c] = H * (1 + plan.bias + plan.spread * normal(random));
+      mc[c] = H * (1 + plan.noise * normal(random));
+      if (plan.fem_noise > 0) fem[c] += H * plan.fem_noise * normal(random);
+    }
+    if (plan.channels == 1) fem = Spectrum(fem[0]), mc = Spectrum(mc[0]);
     validation::Judged one;
     one.name = "element " + std::to_string(j);
     one.kind = validation::Judged::Kind::element;
     one.element = j;
     one.area = area(j);
     one.emitting = j % 10 == 0;
-    one.fem = {Spectrum(fem), Spectrum::zero(), Spectrum(plan.bound * H), plan.claim, 0};
-    one.mc = unbiased_estimate(Spectrum(mc), Spectrum(plan.claimed_noise * H), 1000);
+    one.fem = {fem, Spectrum(plan.fem_noise * H), Spectrum(plan.bound * H), plan.claim, 0};
+    one.mc = unbiased_estimate(mc, Spectrum(plan.claimed_noise * H), 1000);
+    if (plan.knows_weighed) one.mc.weighed_standard_error = plan.claimed_noise * H / std::sqrt(plan.channels);
     one.group = "surface " + std::to_string(j / (plan.count / 10));
     all.push_back(one);
   }

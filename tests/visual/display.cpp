@@ -6,17 +6,18 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "core/error.h"
 #include "core/format.h"
+#include "environment.h"
 #include "visual/x_server.h"
 
 using namespace interflect;
 using namespace interflect::visual;
+using test::Environment;
 
 namespace {
 
@@ -51,21 +52,6 @@ bool has_tidied_up(pid_t process, int number) {
 bool tidies_up_within(pid_t process, int number, std::chrono::seconds patience) {
   return happens_within(patience, [=] { return has_tidied_up(process, number); });
 }
-
-/// An environment variable for the length of a scope; null: unset.
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) {
-    if (const char* now = std::getenv(name)) before_ = now, was_set_ = true;
-    value != nullptr ? ::setenv(name, value, 1) : ::unsetenv(name);
-  }
-  ~Environment() { was_set_ ? ::setenv(name_, before_.c_str(), 1) : ::unsetenv(name_); }
-
- private:
-  const char* name_;
-  std::string before_;
-  bool was_set_ = false;
-};
 
 }  // namespace
 

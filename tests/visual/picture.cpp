@@ -1,18 +1,23 @@
 #include "visual/picture.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <cstdlib>
 
+#include "environment.h"
+#include "results/image_file.h"
+#include "tests/support/temporary_folder.h"
 #include "tiny.h"
+#include "visual/comparison_picture.h"
 #include "visual/legend.h"
 #include "visual/raster.h"
 
 using namespace interflect;
 using namespace interflect::visual;
+using results::Colour;
+using results::ColourMap;
 
 namespace {
 
@@ -194,6 +199,12 @@ TEST_F(Picture, the_legend_shows_the_map_from_low_to_high_and_nothing_is_cut_off
   EXPECT_GT(ink, 100);
 }
 
+TEST_F(Picture, a_caption_longer_than_its_picture_is_not_cut_off) {
+  const core::Image image = framed(core::Image(20, 90, {"R", "G", "B"}), "path traced, 64 samples a pixel", nullptr);
+  EXPECT_GT(image.width, 150);
+  for (int y = 0; y < image.height; ++y) EXPECT_EQ(pixel(image, image.width - 4, y), (Colour{255, 255, 255})) << y;
+}
+
 TEST_F(Picture, edges_darken_the_borders_of_elements_alone) {
   const tiny::Floor floor(2);
   FalseColour options;
@@ -213,18 +224,48 @@ TEST_F(Picture, edges_darken_the_borders_of_elements_alone) {
 }
 
 TEST(PictureFile, is_written_without_a_display_in_the_environment) {
-  const char* before = std::getenv("DISPLAY");
-  const std::string kept = before != nullptr ? before : "";
-  ::unsetenv("DISPLAY");
-  const auto file = std::filesystem::temp_directory_path() / ("interflect-" + std::to_string(::getpid()) + ".png");
+  const test::Environment none("DISPLAY", nullptr);
+  const test::TemporaryFolder scratch;
   const tiny::Floor floor(2);
   FalseColour options;
   options.width = 64, options.height = 48;
-  write_false_colour(file, floor.scene, floor.mesh, ramp(4), options);
-  std::string header(8, ' ');
-  std::ifstream(file, std::ios::binary).read(header.data(), 8);
-  EXPECT_EQ(header, "\x89PNG\r\n\x1a\n");
-  std::filesystem::remove(file);
+  {
+    const visual::Display own;
+    results::write_png(scratch / "picture.png", false_colour(own, floor.scene, floor.mesh, ramp(4), options));
+  }
+  EXPECT_EQ(test::read_file(scratch / "picture.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_EQ(std::getenv("DISPLAY"), nullptr);
-  if (before != nullptr) ::setenv("DISPLAY", kept.c_str(), 1);
+}
+
+TEST(ComparisonPicture, has_the_panels_as_they_are_with_words_over_them_and_a_legend) {
+  constexpr int width = 300, height = 200;  // wider than the words
+  const auto grey = [](float level) {
+    core::Image image(width, height, {"R", "G", "B"});
+    std::fill(image.data.begin(), image.data.end(), level);
+    return image;
+  };
+  const core::Image picture = comparison_picture({grey(0.25F), grey(0.5F), grey(0.75F)}, 64, 0.1);
+  Place at;
+  const core::Image one = framed(grey(0), "x", nullptr, &at.left, &at.top);
+  ASSERT_EQ(picture.height, one.height);
+  ASSERT_GT(picture.width, 3 * one.width);  // the legend is beside the last
+  for (int panel = 0; panel < 3; ++panel) {
+    const int left = panel * one.width + at.left;
+    for (int y : {0, height - 1})
+      for (int x : {0, width - 1})
+        EXPECT_FLOAT_EQ(picture.at(left + x, at.top + y, 1), 0.25F * static_cast<float>(panel + 1));
+    int ink = 0;
+    for (int y = 0; y < at.top; ++y)
+      for (int x = left; x < left + width; ++x) ink += picture.at(x, y, 1) < 0.5F;
+    EXPECT_GT(ink, 20) << "panel " << panel << " has no words";
+  }
+  int blue = 0, red = 0;  // of the legend
+  for (int y = at.top; y < picture.height; ++y)
+    for (int x = 3 * one.width; x < picture.width; ++x) {
+      const Colour c = pixel(picture, x, y);
+      blue += c[2] > 150 && c[0] < 60;
+      red += c[0] > 140 && c[1] < 60;
+    }
+  EXPECT_GT(blue, 20);
+  EXPECT_GT(red, 20);
 }

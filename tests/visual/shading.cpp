@@ -6,6 +6,7 @@
 
 using namespace interflect;
 using namespace interflect::visual;
+using results::Colour;
 
 TEST(Shading, a_linear_field_is_smoothed_to_itself) {
   const tiny::Floor floor(6);

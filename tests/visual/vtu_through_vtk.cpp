@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -8,10 +7,10 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "results/vtu.h"
+#include "tests/support/temporary_folder.h"
 #include "tiny.h"
 
 using namespace interflect;
@@ -30,13 +29,13 @@ TEST(VtuThroughVtk, reads_back_what_was_written) {
   std::vector<results::CellField> fields = results::id_fields(mesh);
   fields.push_back(results::spectrum_field("irradiance", values, {"r", "g", "b"}));
   fields.push_back(results::scalar_field("error <&>", error));
-  const auto file = std::filesystem::temp_directory_path() / ("interflect-" + std::to_string(::getpid()) + ".vtu");
+  const test::TemporaryFolder scratch;
+  const std::filesystem::path file = scratch / "field.vtu";
   results::write_vtu(file, mesh, fields);
 
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
-  std::filesystem::remove(file);
   vtkUnstructuredGrid* grid = reader->GetOutput();
   ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(n));
   EXPECT_EQ(grid->GetNumberOfPoints(), 36 + 3);

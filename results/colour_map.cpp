@@ -1,10 +1,10 @@
-#include "visual/colour_map.h"
+#include "results/colour_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-namespace interflect::visual {
+namespace interflect::results {
 
 namespace {
 
@@ -46,4 +46,4 @@ Colour colour_of(ColourMap map, double t) {
   return out;
 }
 
-}  // namespace interflect::visual
+}  // namespace interflect::results

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace interflect::visual {
+namespace interflect::results {
 
 using Colour = std::array<std::uint8_t, 3>;  ///< sRGB
 
@@ -18,4 +18,4 @@ Colour colour_of(ColourMap map, double t);
 
 inline constexpr Colour no_data{190, 190, 190};
 
-}  // namespace interflect::visual
+}  // namespace interflect::results

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace interflect::apps {
+
+/// Reads the scene and prints what was noted about it; nothing is written yet.
+scene::Scene read_and_note(const std::filesystem::path& file);
+
+/// "room.obj: 12 degenerate faces dropped", a note a line.
+std::vector<std::string> lines_of(const std::vector<scene::Note>& notes);
+
+/// "5 x 4 x 3 m, from (0, 0, 0) to (5, 4, 3)": where a wrong unit shows.
+std::string box_text(const scene::Scene& scene);
+
+}  // namespace interflect::apps

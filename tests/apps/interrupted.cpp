@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/apps/program.h"
+
+namespace interflect::test {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The program's progress has told of at least 1 % of a stage.  Stages go round after round over all pixels or
+/// measurements, so that each has a hundredth of its samples then, but for a factor of two.
+std::function<bool(const std::string&)> part_of(const std::string& stage) {
+  return [pattern = std::regex(stage + ": [1-9][0-9]* %")](const std::string& err) {
+    return std::regex_search(err, pattern);
+  };
+}
+
+nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(read_file(file)); }
+
+TEST(Interrupted, a_picture_is_kept_with_the_samples_so_far) {
+  const TemporaryFolder folder;
+  const Outcome trace = interflect(
+      {"trace", shipped_scene("cornell_box"), "--spp", "2000", "--threads", "2", "-o", folder / "c.exr", "--json"},
+      {.interrupt_when = part_of("rendering front")});
+  EXPECT_EQ(trace.status, 1) << trace.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "c.exr") && std::filesystem::exists(folder / "c.png"));
+  const auto said = nlohmann::json::parse(trace.out);
+  EXPECT_EQ(said["stopped"], true);
+  EXPECT_GT(said["samples"], 0);
+  EXPECT_LT(said["samples"], 2000);
+}
+
+TEST(Interrupted, estimates_are_written_with_the_samples_so_far) {
+  const TemporaryFolder folder;
+  const Outcome trace = interflect({"trace", shipped_scene("holodeck"), "--spp", "1", "--threads", "2", "-o",
+                                    folder / "c.exr", "--estimates", folder / "tables", "--accuracy", "0.001%"},
+                                   {.interrupt_when = part_of("path tracing")});
+  EXPECT_EQ(trace.status, 1) << trace.err;
+  EXPECT_TRUE(contains(trace.err, "fewer samples")) << trace.err;
+  EXPECT_TRUE(contains(trace.out, "stopped")) << trace.out;
+  EXPECT_TRUE(std::filesystem::exists(folder / "tables/surfaces.csv") &&
+              std::filesystem::exists(folder / "tables/sensors.csv"));
+}
+
+TEST(Interrupted, a_stop_before_there_are_estimates_is_said_and_leaves_no_folder) {
+  const TemporaryFolder folder;
+  const Outcome trace = interflect({"trace", shipped_scene("cornell_box"), "--spp", "2000", "--threads", "2", "-o",
+                                    folder / "c.exr", "--estimates", folder / "tables"},
+                                   {.interrupt_when = part_of("rendering front")});
+  EXPECT_EQ(trace.status, 1) << trace.err;
+  EXPECT_TRUE(contains(trace.err, "no estimates were written")) << trace.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "tables"));
+}
+
+TEST(Interrupted, a_solve_without_form_factors_leaves_nothing) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const Outcome solve = interflect(
+      {"solve", shipped_scene("office"), "--element-size", "0.12", "--max-memory", "9GB", "--quiet", "-o", out},
+      {.interrupt_when = [&](const std::string&) { return std::filesystem::exists(out); }});
+  EXPECT_EQ(solve.status, 1) << solve.err;
+  EXPECT_TRUE(contains(solve.err, "interrupted during")) << solve.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(Interrupted, a_validation_gives_its_verdict_on_what_it_has_and_says_so_everywhere) {
+  const TemporaryFolder folder;
+  const Outcome validate = interflect({"validate", shipped_scene("cube"), "--element-size", "0.25", "--all",
+                                       "--accuracy", "0.001%", "--threads", "2", "-o", folder / "out"},
+                                      {.interrupt_when = part_of("path tracing")});
+  EXPECT_EQ(validate.status, 1) << validate.err;
+  EXPECT_TRUE(contains(validate.out, "not validated: stopped")) << validate.out;
+  EXPECT_TRUE(contains(validate.out, "of the path-traced reference")) << validate.out;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/validation.png"));
+  const auto certificate = json_of(folder / "out/validation.json");
+  EXPECT_EQ(certificate["stopped"], true);
+  EXPECT_EQ(certificate["run"]["stopped"], true);
+  EXPECT_EQ(certificate["passed"], false);
+  EXPECT_EQ(json_of(folder / "out/summary.json")["stopped"], true);
+}
+
+TEST(Interrupted, a_validation_stopped_at_its_pictures_keeps_its_verdict) {
+  const TemporaryFolder folder;
+  const Outcome validate = interflect({"validate", shipped_scene("cube"), "--element-size", "0.25", "--accuracy", "5%",
+                                       "--picture-spp", "5000", "--threads", "2", "-o", folder / "out"},
+                                      {.interrupt_when = part_of("rendering inside")});
+  EXPECT_EQ(validate.status, 1) << validate.err;
+  EXPECT_TRUE(contains(validate.out, "\nFEM within")) << validate.out;
+  const auto certificate = json_of(folder / "out/validation.json");
+  EXPECT_EQ(certificate["stopped"], true);
+  EXPECT_EQ(certificate["passed"], true);
+}
+
+TEST(Interrupted, a_validation_stopped_before_anything_is_traced_keeps_the_solution) {
+  const TemporaryFolder folder;
+  const std::string summary = folder / "out/summary.json";
+  const Outcome validate =
+      interflect({"validate", shipped_scene("office"), "--element-size", "1", "--all", "--accuracy", "0.01%",
+                  "--no-pictures", "--threads", "2", "-o", folder / "out"},
+                 {.interrupt_when = [&](const std::string&) { return std::filesystem::exists(summary); }});
+  EXPECT_EQ(validate.status, 1) << validate.err;
+  EXPECT_TRUE(contains(validate.err, "interrupted during")) << validate.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/validation.json"));
+  EXPECT_EQ(json_of(summary)["stopped"], true);
+}
+
+}  // namespace
+}  // namespace interflect::test

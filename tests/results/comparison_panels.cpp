@@ -1,0 +1,64 @@
+#include "results/comparison_panels.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "results/colour_map.h"
+
+using namespace interflect;
+using namespace interflect::results;
+
+namespace {
+
+scene::Scene two_bands() {
+  scene::Scene scene;
+  scene.channels = {"visible", "heat"};
+  scene.weights[0] = 1;  // and 0
+  return scene;
+}
+
+core::Image even(float visible, float heat, int width = 13, int height = 7) {
+  core::Image image(width, height, {"visible", "heat"});
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.at(x, y, 0) = visible, image.at(x, y, 1) = heat;
+  return image;
+}
+
+Colour colour_at(const core::Image& image, int x, int y) {
+  Colour out;
+  for (int c = 0; c < 3; ++c)
+    out[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * image.at(x, y, c)));
+  return out;
+}
+
+}  // namespace
+
+TEST(ComparisonPanels, the_difference_is_relative_to_the_mean_and_of_the_weighted_radiance) {
+  // (41 - 39) / 40 = 5 %, half of the full scale; the band without weight differs by more and does not count.
+  const ComparisonPanels brighter = comparison_panels(two_bands(), even(41, 1), even(39, 100), 0.1);
+  const ComparisonPanels darker = comparison_panels(two_bands(), even(39, 1), even(41, 100), 0.1);
+  for (const auto& [x, y] : {std::pair{0, 0}, {12, 6}}) {  // the last block is smaller than the others
+    EXPECT_EQ(colour_at(brighter.difference, x, y), colour_of(ColourMap::blue_white_red, 0.75));
+    EXPECT_EQ(colour_at(darker.difference, x, y), colour_of(ColourMap::blue_white_red, 0.25));
+  }
+}
+
+TEST(ComparisonPanels, noise_of_single_pixels_is_averaged_and_darkness_agrees) {
+  core::Image noisy = even(0, 0);
+  for (int y = 0; y < noisy.height; ++y)
+    for (int x = 0; x < 6; ++x) noisy.at(x, y, 0) = (x + y) % 2 == 0 ? 0.0F : 80.0F;  // 40 in the mean of a 6 x 6 block
+  const core::Image smooth = even(40, 0);
+  core::Image fem = even(0, 0);
+  for (int y = 0; y < fem.height; ++y)
+    for (int x = 0; x < 6; ++x) fem.at(x, y, 0) = smooth.at(x, y, 0);
+  const core::Image difference = comparison_panels(two_bands(), fem, noisy, 0.1).difference;
+  EXPECT_EQ(colour_at(difference, 3, 3), colour_of(ColourMap::blue_white_red, 0.5));
+  EXPECT_EQ(colour_at(difference, 9, 3), colour_of(ColourMap::blue_white_red, 0.5));
+}
+
+TEST(ComparisonPanels, both_pictures_have_the_exposure_of_the_traced_one) {
+  const ComparisonPanels panels = comparison_panels(two_bands(), even(0.5F, 0), even(1, 0), 0.1);
+  EXPECT_FLOAT_EQ(panels.traced.at(0, 0, 0), 1);
+  EXPECT_NEAR(panels.fem.at(0, 0, 0), 0.735357, 1e-6);  // sRGB of 0.5
+  EXPECT_THROW(comparison_panels(two_bands(), even(1, 1), even(1, 1, 5, 5), 0.1), core::PreconditionError);
+}

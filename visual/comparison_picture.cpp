@@ -1,0 +1,18 @@
+#include "visual/comparison_picture.h"
+
+#include "core/format.h"
+#include "visual/legend.h"
+
+namespace interflect::visual {
+
+core::Image comparison_picture(const results::ComparisonPanels& panels, std::uint64_t samples, double full_scale) {
+  const double percent = 100 * full_scale;
+  const Legend legend{"%", results::ColourMap::blue_white_red, {-percent, percent}, false, false};
+  const std::string traced = "path traced, " + core::format_count(samples) + " samples a pixel";
+  const std::string difference = core::format("difference -%.3g %% .. +%.3g %%", percent, percent);
+  return core::side_by_side({framed(panels.fem, "radiosity", nullptr), framed(panels.traced, traced, nullptr),
+                             framed(panels.difference, difference, &legend)},
+                            0);
+}
+
+}  // namespace interflect::visual
