@@ -17,11 +17,12 @@ std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
   return solved.method().answer(solved.scene, asked, run);
 }
 
-/// What the solution shows to be odd.  Flux on black backs counts beyond the noise of the rays that found it.
+/// What the solution shows to be odd.  Flux on black backs counts beyond the noise of the rays that found it: one standard error
+/// of all that they lost, which is more than that of the few that met backs.
 std::vector<std::string> warnings_of(const scene::Scene& scene, const fem::RadiositySolution& solution) {
   std::vector<std::string> warnings;
   const double emitted = scene.weigh(solution.energy.emitted), on_backs = scene.weigh(solution.energy.on_backs);
-  if (on_backs - normal_95 * scene.weigh(solution.energy.split_error) > noticeable_on_backs * emitted)
+  if (on_backs - scene.weigh(solution.energy.split_error) > noticeable_on_backs * emitted)
     warnings.push_back("black backs absorb " + core::format_percent(on_backs / emitted) +
                        " of the emitted flux: is a surface flipped?  interflect check tells which");
   if (!solution.solver.converged())

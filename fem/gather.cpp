@@ -80,7 +80,7 @@ std::vector<Gather::Unproved> Gather::unproved_elements(const Receiver& at, Gath
     for (const Index j : cluster.elements) {
       const ElementShape& shape = shapes_[j];
       const double before = shape.plane.distance(at.local);
-      if (before <= shapes_.plane_tolerance() || at.horizon.distance(shape.centroid) <= -shape.radius) continue;
+      if (before <= shapes_.height_tolerance(shape, at.local) || at.horizon.distance(shape.centroid) <= -shape.radius) continue;
       const bool distant = (shape.centroid - at.local).squaredNorm() > far * far * shape.radius * shape.radius &&
                            at.horizon.distance(shape.centroid) > shape.radius;
       const double factor =
@@ -88,9 +88,9 @@ std::vector<Gather::Unproved> Gather::unproved_elements(const Receiver& at, Gath
                   : point_to_polygon(at.local, at.normal, shape.ring());
       if (factor <= 0.0) continue;
       if (!candidates && cluster.rectangle)
-        candidates = blockers_.candidates(geometry::Shaft(at.triangle, *cluster.rectangle));
+        candidates = blockers_.candidates(geometry::Shaft(at.triangle, *cluster.rectangle, shapes_.plane_tolerance()));
       const bool clear = (candidates && candidates->empty()) || [&] {
-        const geometry::Shaft shaft(at.triangle, shape.ring());
+        const geometry::Shaft shaft(at.triangle, shape.ring(), shapes_.plane_tolerance());
         return candidates ? !blockers_.any(shaft, *candidates) : !blockers_.any(shaft);
       }();
       if (clear)

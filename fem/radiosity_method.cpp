@@ -7,24 +7,11 @@
 #include "core/random.h"
 #include "fem/error_estimate.h"
 #include "fem/gather.h"
-#include "geometry/clip.h"
+#include "geometry/overlap.h"
 
 namespace interflect::fem {
 
 namespace {
-
-/// Area of the part of an element that lies within a convex patch of the same plane [m²].
-double shared_area(const scene::SurfacePatch& element, const scene::SurfacePatch& patch) {
-  const Vec3 normal = patch.normal();
-  geometry::ConvexRing left;
-  for (const Vec3& p : element.ring()) left.corner[static_cast<std::size_t>(left.corners++)] = p - patch.corner[0];
-  for (std::size_t k = 0; k < patch.corners && left.corners > 0; ++k) {
-    const Vec3 from = patch.corner[k] - patch.corner[0], to = patch.corner[(k + 1) % patch.corners] - patch.corner[0];
-    const Vec3 inwards = normal.cross(to - from).normalized();
-    left = geometry::clip(left.ring(), {inwards, inwards.dot(from)});
-  }
-  return left.corners > 0 ? geometry::vector_area(left.ring()).norm() : 0.0;
-}
 
 /// The part of a patch that lies in one element.
 struct Tile {
@@ -95,7 +82,7 @@ void Answers::add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& til
       const scene::SurfacePatch& element = s_.mesh.patches()[i];
       if (std::abs(normal.dot(element.corner[0] - patch.corner[0])) > plane || element.normal().dot(normal) < 0.999)
         continue;
-      if (const double area = shared_area(element, patch); area > 0.0) tiles.push_back({i, area});
+      if (const double area = geometry::overlap_area(element.ring(), patch.ring()); area > 0.0) tiles.push_back({i, area});
     }
   }
 }

@@ -5,7 +5,7 @@
 
 namespace interflect::geometry {
 
-Shaft::Shaft(std::span<const Vec3> a, std::span<const Vec3> b) {
+Shaft::Shaft(std::span<const Vec3> a, std::span<const Vec3> b, double rounding) {
   assert(a.size() >= 3 && a.size() <= most_corners && b.size() >= 3 && b.size() <= most_corners);
   double largest = 0;
   for (const auto ring : {a, b})
@@ -13,7 +13,7 @@ Shaft::Shaft(std::span<const Vec3> a, std::span<const Vec3> b) {
       corner_[static_cast<std::size_t>(corners_++)] = x;
       largest = std::max({largest, std::abs(x.x()), std::abs(x.y()), std::abs(x.z())});
     }
-  margin_ = 1e-12 * largest;
+  margin_ = std::max(rounding, 1e-12 * largest);
   const Vec3 normal_a = vector_area(a).normalized(), normal_b = vector_area(b).normalized();
   add_own_plane(a, normal_a);
   add_own_plane(b, normal_b);

@@ -18,13 +18,16 @@ namespace interflect::geometry {
 /// one reaching behind the other), a shaft may be too wide and never too narrow.  What lies in the plane of one of the polygons,
 /// or behind it, blocks nothing: light leaves to the front.
 ///
-/// Rounding is covered by a margin of 1e-12 of the largest coordinate.  No heap, and no division but in plane normals.
+/// Rounding is covered by a margin of 1e-12 of the largest coordinate, or more where the caller knows of more: polygons that
+/// were brought here from far away carry the rounding of their coordinates there.  No heap, and no division but in plane
+/// normals.
 class Shaft {
  public:
   static constexpr int most_corners = 6;  ///< of either polygon: a quad after two clips
 
-  /// @param a, b  convex rings, 3 .. most_corners corners [m], counter-clockwise around the sides that exchange light
-  Shaft(std::span<const Vec3> a, std::span<const Vec3> b);
+  /// @param a, b      convex rings, 3 .. most_corners corners [m], counter-clockwise around the sides that exchange light
+  /// @param rounding  of corners, theirs and the triangles' [m]
+  Shaft(std::span<const Vec3> a, std::span<const Vec3> b, double rounding = 0);
 
   /// False only if no point of the triangle's interior can lie between the polygons.
   bool may_block(const Vec3& p, const Vec3& q, const Vec3& r) const {

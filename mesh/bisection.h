@@ -18,8 +18,8 @@ namespace interflect::mesh {
 /// same points, so that the mesh is conforming there too, and only its topology falls into parts.
 ///
 /// A needle stays whole, however long it is, where its parts would come near the rounding of its coordinates and might
-/// lose their area or turn over: far from the origin.  Its neighbours are cut without it; what then lies between them is
-/// thinner than 1e-14 of the coordinates.
+/// lose their area or turn over: far from the origin.  Its neighbours are cut without it; what then lies between them
+/// is thinner than 1e-14 of the coordinates.
 geometry::IndexedTriangles bisected(std::span<const scene::Facet> facets, double max_edge);
 
 /// How many triangles `bisected` makes of one facet, exact up to ties between equally long edges; infinity beyond

@@ -38,14 +38,15 @@ class GaussLambert::ClusterPair {
     if (!candidates_) find_candidates();
     if (planar_ && candidates_->empty()) return true;
     const ElementShapes& shapes = method_.integrate_.shapes();
-    const geometry::Shaft shaft(shapes[i].ring(), shapes[j].ring());
+    const geometry::Shaft shaft(shapes[i].ring(), shapes[j].ring(), shapes.plane_tolerance());
     return planar_ ? !method_.blockers_.any(shaft, *candidates_) : !method_.blockers_.any(shaft);
   }
   void find_candidates() {
     candidates_.emplace();
     planar_ = a_.rectangle && b_.rectangle;
     if (!planar_) return;
-    *candidates_ = method_.blockers_.candidates(geometry::Shaft(*a_.rectangle, *b_.rectangle));
+    const double rounding = method_.integrate_.shapes().plane_tolerance();
+    *candidates_ = method_.blockers_.candidates(geometry::Shaft(*a_.rectangle, *b_.rectangle, rounding));
     if (candidates_->size() > longest_list) planar_ = false;
   }
 

@@ -52,11 +52,11 @@ TEST(Info, prints_areas_box_and_flux) {
   EXPECT_TRUE(contains(info.out, "geometry       closed\n")) << info.out;
   const auto said = json::parse(interflect({"info", shipped_scene("furnace"), "--json"}).out);
   double area = 0;
-  for (const json& surface : said["surfaces"]) area += surface["area"].get<double>();
+  for (const json& surface : said.at("surfaces")) area += surface.at("area").get<double>();
   EXPECT_DOUBLE_EQ(area, 7);
-  EXPECT_EQ(said["emitted_flux"], json({3.5}));
-  EXPECT_EQ(said["box_max_m"], json({1.0, 2.0, 0.5}));
-  EXPECT_EQ(said["closed"], true);
+  EXPECT_EQ(said.at("emitted_flux"), json({3.5}));
+  EXPECT_EQ(said.at("box_max_m"), json({1.0, 2.0, 0.5}));
+  EXPECT_EQ(said.at("closed"), true);
 }
 
 // Three walls of a unit cube that meet in a corner; the one in y = 0 looks outwards.
@@ -83,7 +83,7 @@ TEST(Solve, warns_of_flux_on_black_backs) {
   const auto warnings = [&](const std::string& scene) {
     const Outcome solve = interflect({"solve", scene, "--element-size", "0.5", "--no-pictures", "-o", folder / "out"});
     EXPECT_EQ(solve.status, 0) << solve.err;
-    const json recorded = json::parse(read_file(folder / "out/summary.json"))["warnings"];
+    const json recorded = json::parse(read_file(folder / "out/summary.json")).at("warnings");
     for (const json& warning : recorded) EXPECT_TRUE(contains(solve.err, warning.get<std::string>())) << solve.err;
     return recorded.dump();
   };
@@ -141,7 +141,7 @@ TEST(Solve, a_forecast_is_a_result_and_needs_no_folder) {
     EXPECT_TRUE(contains(quiet.out, "elements, ")) << quiet.out;
     const Outcome as_json = interflect({command, shipped_scene("office"), "--forecast", "--json"});
     const json said = json::parse(as_json.out);
-    for (const char* key : {"elements", "bytes", "seconds"}) EXPECT_GT(said[key], 0) << key;
+    for (const char* key : {"elements", "bytes", "seconds"}) EXPECT_GT(said.at(key), 0) << key;
   }
 }
 
@@ -152,13 +152,13 @@ TEST(Solve, the_summary_says_what_ran) {
   ASSERT_EQ(solve.status, 0) << solve.err;
   EXPECT_TRUE(contains(solve.out, "bounding box 1 x 1 x 1 m")) << solve.out;
   const json summary = json::parse(read_file(folder / "out/summary.json"));
-  EXPECT_EQ(summary["seed"], ~std::uint64_t{0});
-  EXPECT_EQ(summary["threads"], 2);
-  EXPECT_EQ(summary["stopped"], false);
-  EXPECT_GT(summary["peak_memory_bytes"], 1'000'000);
+  EXPECT_EQ(summary.at("seed"), ~std::uint64_t{0});
+  EXPECT_EQ(summary.at("threads"), 2);
+  EXPECT_EQ(summary.at("stopped"), false);
+  EXPECT_GT(summary.at("peak_memory_bytes"), 1'000'000);
   const Outcome all = interflect(
       {"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "--json", "-o", folder / "out"});
-  EXPECT_GT(json::parse(all.out)["threads"], 0) << "as many as were used, not the 0 that asks for all";
+  EXPECT_GT(json::parse(all.out).at("threads"), 0) << "as many as were used, not the 0 that asks for all";
 }
 
 TEST(Program, output_that_does_not_arrive_is_no_success) {
@@ -210,8 +210,8 @@ TEST(Validate, a_solver_that_has_not_converged_is_a_reason) {
   EXPECT_TRUE(contains(validate.err, "warning: the solver has not converged: ")) << validate.err;
   EXPECT_TRUE(contains(validate.out, "not validated: the solver has not converged: ")) << validate.out;
   const json certificate = json::parse(read_file(folder / "out/validation.json"));
-  EXPECT_EQ(certificate["passed"], false);
-  EXPECT_TRUE(contains(certificate["run"]["warnings"].dump(), "has not converged"));
+  EXPECT_EQ(certificate.at("passed"), false);
+  EXPECT_TRUE(contains(certificate.at("run").at("warnings").dump(), "has not converged"));
 }
 
 // In the furnace every pixel's radiance is 1 / pi (E = 1 - rho in a closed box).  Of 120 000 independent pixels the

@@ -151,5 +151,17 @@ TEST(Shaft, holds_far_from_the_origin) {
   EXPECT_FALSE(shaft.may_block(far + Vec3(1.5, 0.5, 0.5), far + Vec3(1.75, 0.5, 0.5), far + Vec3(1.5, 0.75, 0.5)));
 }
 
+// Two patches and the wall that one of them lies on, brought back from coordinates that are 1e-9 apart: the wall stands out of
+// the patch's plane by that, and blocks nothing to whoever knows of it.
+TEST(Shaft, forgives_as_much_rounding_as_it_is_told_of) {
+  const Ring patch = rectangle(0.4, 0.4, 0.6, 0.6), wall = rectangle(0, 0, 1, 1, 1e-9);
+  Ring top = rectangle(0, 0, 1, 1, 1);
+  std::reverse(top.begin(), top.end());
+  const Shaft strict(patch, top), told(patch, top, 4e-9);
+  EXPECT_TRUE(strict.may_block(wall[0], wall[1], wall[2]));
+  EXPECT_FALSE(told.may_block(wall[0], wall[1], wall[2]));
+  EXPECT_TRUE(told.may_block(Vec3(0.2, 0.2, 1e-8), Vec3(0.8, 0.2, 1e-8), Vec3(0.2, 0.8, 1e-8)));
+}
+
 }  // namespace
 }  // namespace interflect::geometry
