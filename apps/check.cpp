@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "apps/commands.h"
@@ -50,6 +51,9 @@ void print_text(const std::vector<Line>& lines) {
     if (end - i > most_printed) std::printf("  and %zu more\n", end - i - most_printed);
     i = end;
   }
+  const std::string gap = scene::describe(Kind::gap);
+  if (std::any_of(lines.begin(), lines.end(), [&](const Line& line) { return line.kind == gap; }))
+    std::printf("Gaps are no error in a scene that is open on purpose; rims of free-standing sheets are among them (docs/checks.md).\n");
   if (lines.empty()) std::printf("no gaps, flipped normals, duplicate or coplanar faces\n");
 }
 

@@ -1,6 +1,7 @@
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <charconv>
 #include <memory>
 
@@ -32,6 +33,23 @@ struct Memory : CLI::Validator {
           return std::string();
         }
       return "'" + text + "' is not a size such as 4GB";
+    };
+  }
+};
+
+/// A length in metres above 0.
+struct Length : CLI::Validator {
+  Length() : Validator("METRES") {
+    func_ = [](std::string& text) {
+      std::size_t used = 0;
+      double value = 0;
+      try {
+        value = std::stod(text, &used);
+      } catch (const std::exception&) {
+        used = 0;
+      }
+      const bool fine = used == text.size() && value > 0 && std::isfinite(value);
+      return fine ? std::string() : "'" + text + "' is not a number of metres above 0";
     };
   }
 };
@@ -86,8 +104,8 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
 void add_radiosity(CLI::App& command, SolveOptions& options) {
   fem::RadiositySettings& s = options.settings;
   CLI::Option* out = command.add_option("-o,--out", options.out, "Folder for the results")->required();
-  command.add_option("--element-size", s.element_size, "Longest edge of an element [m]; default: for about 2 500 elements")
-      ->check(CLI::PositiveNumber);
+  command.add_option("--element-size", s.element_size, "Longest edge of an element [m]; default: for about 2 500 elements, more where small surfaces each need some")
+      ->check(Length());
   command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")->transform(Memory())
       ->default_str(core::format_bytes(s.max_memory));
   command.add_option("--form-factors", s.form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))

@@ -2,7 +2,6 @@
 
 #include <pthread.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -28,12 +27,6 @@ core::Progress::Style style(const CommonOptions& options) {
 }
 
 }  // namespace
-
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::uint64_t{1024} * static_cast<std::uint64_t>(usage.ru_maxrss);
-}
 
 void block_watched_signals() {
   const sigset_t set = watched_signals();

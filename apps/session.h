@@ -28,9 +28,6 @@ class Session {
   std::unique_ptr<SignalWatch> watch_;
 };
 
-/// The most memory that the program has had resident so far [bytes].
-std::uint64_t peak_memory_bytes();
-
 /// Blocks the signals that a Session watches, in this thread and all that it will start: to be called before any thread exists.
 void block_watched_signals();
 

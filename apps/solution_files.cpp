@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "apps/read_scene.h"
-#include "apps/session.h"
 #include "apps/table.h"
 #include "core/build_info.h"
 #include "core/format.h"
+#include "core/memory.h"
 #include "fem/error_summary.h"
 #include "photometry/sensor_summary.h"
 #include "results/vtu.h"
@@ -16,6 +16,9 @@
 
 namespace interflect::apps {
 namespace {
+
+/// Bytes are counted in whole ones.
+std::uint64_t whole(double bytes) { return static_cast<std::uint64_t>(std::llround(bytes)); }
 
 using fem::RadiositySolution;
 
@@ -49,7 +52,7 @@ results::Record settings_record(const fem::RadiositySettings& settings, const Ra
       .add("quadrature_tolerance", settings.quadrature_tolerance)
       .add("visibility_rays", settings.visibility_rays)
       .add("restore_closure", settings.restore_closure)
-      .add("max_memory_bytes", settings.max_memory);
+      .add("max_memory_bytes", whole(settings.max_memory));
   return record;
 }
 
@@ -116,9 +119,12 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
   const RadiositySolution& solution = solved.solution;
   const int channels = solved.scene.channel_count();
   const core::BuildInfo build = core::build_info();
-  const fem::ErrorSummary error = fem::summarise_error(solution, solved.scene.weights);
-  results::Record stages, record;
-  for (const fem::StageCost& stage : solution.stages) stages.add(stage.stage, stage.seconds);
+  const fem::ErrorSummary error = fem::summarise_error(solution, solved.scene);
+  results::Record seconds, peaks, record;
+  for (const fem::StageCost& stage : solution.stages) {
+    seconds.add(stage.stage, stage.seconds);
+    peaks.add(stage.stage, whole(stage.peak_bytes));
+  }
   record.add("version", build.version)
       .add("build", build.compiler)
       .add("command", common.command_line)
@@ -131,8 +137,9 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("settings", settings_record(options.settings, solution))
       .add("forecast", forecast_record(solved.forecast))
       .add("elements", solution.mesh.size())
-      .add("operator_bytes", solution.bytes)
-      .add("seconds", std::move(stages))
+      .add("operator_bytes", whole(solution.bytes))
+      .add("seconds", std::move(seconds))
+      .add("peak_memory_bytes_by_stage", std::move(peaks))
       .add("form_factors", form_factor_record(solution))
       .add("solver", solver_record(solution))
       .add("energy", energy_record(solution.energy, channels))
@@ -142,7 +149,7 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("repairs", lines_of(solved.scene.repairs))
       .add("warnings", solved.warnings)
       .add("stopped", run.stop.stop_requested())
-      .add("peak_memory_bytes", peak_memory_bytes());
+      .add("peak_memory_bytes", whole(core::peak_memory_bytes()));
   return record;
 }
 
@@ -165,7 +172,7 @@ void write_solution(const SolvedScene& solved, const SolveOptions& options, cons
 
 std::string solution_text(const SolvedScene& solved) {
   const RadiositySolution& s = solved.solution;
-  const fem::ErrorSummary error = fem::summarise_error(s, solved.scene.weights);
+  const fem::ErrorSummary error = fem::summarise_error(s, solved.scene);
   std::string text = core::format("\nelements    %s, edges up to %.4g m, %s\n", core::format_count(static_cast<unsigned long long>(s.mesh.size())).c_str(),
                                   s.mesh.longest_edge(), core::format_bytes(s.bytes).c_str());
   text += energy_text(solved);

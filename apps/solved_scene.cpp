@@ -1,5 +1,6 @@
 #include "apps/solved_scene.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "apps/read_scene.h"
@@ -9,7 +10,8 @@
 namespace interflect::apps {
 namespace {
 
-constexpr double noticeable_on_backs = 1e-3;  ///< of the emitted flux: docs/scene.md promises a warning above it
+constexpr double noticeable_on_backs = 1e-3;   ///< of the emitted flux: docs/scene.md promises a warning above it
+constexpr double noticeable_imbalance = 5e-3;  ///< of the emitted flux, lost or made by form factors
 
 std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
   std::vector<measure::Measurement> asked;
@@ -17,14 +19,31 @@ std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
   return solved.method().answer(solved.scene, asked, run);
 }
 
-/// What the solution shows to be odd.  Flux on black backs counts beyond the noise of the rays that found it: one standard error
-/// of all that they lost, which is more than that of the few that met backs.
-std::vector<std::string> warnings_of(const scene::Scene& scene, const fem::RadiositySolution& solution) {
+/// Sensors none of whose points sees any light.
+std::vector<std::string> blind_sensors(const SolvedScene& solved) {
   std::vector<std::string> warnings;
+  for (std::size_t k = 0; k < solved.points.size();) {
+    const std::string& sensor = solved.points[k].sensor;
+    bool blind = true;
+    for (; k < solved.points.size() && solved.points[k].sensor == sensor; ++k) blind = blind && solved.at_points[k].value.is_zero();
+    if (blind) warnings.push_back("no light reaches sensor '" + sensor + "': is it outside the room, or turned away?");
+  }
+  return warnings;
+}
+
+/// What the solution shows to be odd.  Flux on black backs counts beyond the noise of the rays that found it.
+std::vector<std::string> warnings_of(const SolvedScene& solved) {
+  const scene::Scene& scene = solved.scene;
+  const fem::RadiositySolution& solution = solved.solution;
+  std::vector<std::string> warnings = blind_sensors(solved);
   const double emitted = scene.weigh(solution.energy.emitted), on_backs = scene.weigh(solution.energy.on_backs);
-  if (on_backs - scene.weigh(solution.energy.split_error) > noticeable_on_backs * emitted)
+  if (on_backs - normal_95 * scene.weigh(solution.energy.on_backs_error) > noticeable_on_backs * emitted)
     warnings.push_back("black backs absorb " + core::format_percent(on_backs / emitted) +
                        " of the emitted flux: is a surface flipped?  interflect check tells which");
+  const double imbalance = scene.weigh(solution.energy.form_factor_error);
+  if (std::abs(imbalance) - normal_95 * scene.weigh(solution.energy.split_error) > noticeable_imbalance * emitted)
+    warnings.push_back("form factors lose " + core::format_percent(imbalance / emitted) +
+                       " of the emitted flux: do faces coincide or lie closer than elements are long?  See interflect check");
   if (!solution.solver.converged())
     warnings.push_back("the solver has not converged: " + solvers::describe(solution.solver.why));
   return warnings;
@@ -63,7 +82,7 @@ std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const Comm
   solved->rays = raycast::make_ray_caster(options.settings.intersector, solved->scene);
   solved->at_points = answer_points(*solved, run);
   solved->warnings = lines_of(solved->scene.warnings);
-  for (const std::string& warning : warnings_of(solved->scene, solved->solution)) {
+  for (const std::string& warning : warnings_of(*solved)) {
     core::log::warning(warning);
     solved->warnings.push_back(warning);
   }

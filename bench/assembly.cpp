@@ -3,14 +3,13 @@
 //
 //   bench_assembly [SCENE [ELEMENTS [THREADS [RAYS]]]]      default: data/scenes/office.json 5000 2 16
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "fem/error_summary.h"
 #include "fem/radiosity.h"
 #include "mesh/uniform.h"
@@ -34,9 +33,7 @@ void print(const scene::Scene& scene, const fem::RadiositySolution& s, double se
     std::printf("  %-16s %8.3f s\n", stage.stage.c_str(), stage.seconds);
     if (stage.stage == "form factors") assembly = stage.seconds;
   }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const fem::ErrorSummary error = fem::summarise_error(s, scene.weights);
+  const fem::ErrorSummary error = fem::summarise_error(s, scene);
   std::printf("pairs: %.1f million, %.0f ns each; away %.3g, clear %.3g, sampled %.3g by %.3g rays\n", pairs * 1e-6,
               assembly / pairs * 1e9, double(s.pairs.facing_away), double(s.pairs.clear), double(s.pairs.sampled),
               double(s.pairs.rays));
@@ -46,7 +43,7 @@ void print(const scene::Scene& scene, const fem::RadiositySolution& s, double se
               100 * error.relative_l2, 100 * error.relative_noise_l2);
   std::printf(
       "total %.2f s (limit 60 at 5000; forecast %.1f), operator %.0f MB (forecast %.0f), peak of the process %.0f MB\n",
-      seconds, forecast.seconds, s.bytes * 1e-6, forecast.bytes * 1e-6, double(usage.ru_maxrss) * 1e-3);
+      seconds, forecast.seconds, s.bytes * 1e-6, forecast.bytes * 1e-6, core::peak_memory_bytes() * 1e-6);
 }
 
 }  // namespace

@@ -95,6 +95,7 @@ EnergyBalance energy_balance(const RadiositySolution& s, const LostRays& lost) {
   }
   energy.escaped = lost.escaped;
   energy.on_backs = lost.on_backs;
+  energy.on_backs_error = lost.on_backs_error;
   energy.split_error = sqrt(lost.escaped_error * lost.escaped_error + lost.on_backs_error * lost.on_backs_error);
   energy.form_factor_error = unaccounted - lost.escaped - lost.on_backs;
   energy.residual = energy.emitted - energy.absorbed - unaccounted;

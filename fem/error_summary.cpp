@@ -3,23 +3,13 @@
 #include <cmath>
 
 namespace interflect::fem {
-namespace {
 
-double weigh(const Spectrum& weights, const Spectrum& s) {
-  double sum = 0;
-  for (int c = 0; c < Spectrum::capacity; ++c)
-    if (weights[c] != 0) sum += weights[c] * s[c];
-  return sum;
-}
-
-}  // namespace
-
-ErrorSummary summarise_error(const RadiositySolution& solution, const Spectrum& weights) {
+ErrorSummary summarise_error(const RadiositySolution& solution, const scene::Scene& scene) {
   double area = 0, mean = 0, squares = 0, bounds = 0, noises = 0;
   for (std::size_t i = 0; i < solution.irradiance.size(); ++i) {
     const double a = solution.mesh.patches()[i].area;
-    const double h = weigh(weights, solution.irradiance[i]), bound = weigh(weights, solution.irradiance_error[i]),
-                 noise = weigh(weights, solution.irradiance_noise[i]);
+    const double h = scene.weigh(solution.irradiance[i]), bound = scene.weigh(solution.irradiance_error[i]),
+                 noise = scene.weigh(solution.irradiance_noise[i]);
     area += a;
     mean += a * h;
     squares += a * h * h;

@@ -11,6 +11,6 @@ struct ErrorSummary {
   double relative_noise_l2 = 0;  ///< the same of the standard errors of sampled visibility
 };
 
-ErrorSummary summarise_error(const RadiositySolution& solution, const Spectrum& weights);
+ErrorSummary summarise_error(const RadiositySolution& solution, const scene::Scene& scene);
 
 }  // namespace interflect::fem

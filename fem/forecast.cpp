@@ -17,8 +17,11 @@ constexpr double default_elements = 2500, most_elements_to_mesh = 200'000;
 /// K and its errors (4 n² and at most 2 n²), K of the coarse mesh (a sixteenth of that), and what each element carries.
 double predicted_bytes(double elements) { return 6.4 * elements * elements + 4000.0 * elements; }
 double elements_in(double bytes) { return std::sqrt(bytes / 6.4 + 312.5 * 312.5) - 312.5; }
-/// The memory that so many elements need, as the option takes it: "12GB".
-std::string memory_option(double elements) { return core::format("%.0fGB", std::ceil(1e-9 * predicted_bytes(elements))); }
+/// The memory that so many elements need, as the option takes it: "300MB", "12GB".
+std::string memory_option(double elements) {
+  const double megabytes = std::ceil(1e-6 * predicted_bytes(elements));
+  return megabytes < 1000 ? core::format("%.0fMB", megabytes) : core::format("%.0fGB", std::ceil(1e-3 * megabytes));
+}
 
 /// Elements are made as quarters of elements of twice the size.
 double predicted_elements(const scene::Scene& scene, double size) {
@@ -31,7 +34,7 @@ double size_for(const scene::Scene& scene, double elements) { return 0.5 * mesh:
 std::string way_out(const scene::Scene& scene, const RadiositySettings& settings) {
   const double room = elements_in(settings.max_memory) / 1.2, size = size_for(scene, room);
   if (predicted_elements(scene, size) > 1.1 * room)
-    return core::format("no --element-size fits, since its facets alone make %.0f; --max-memory %s or more would do",
+    return core::format("no --element-size fits, since the coarsest elements are %.0f; --max-memory %s or more would do",
                         predicted_elements(scene, size), memory_option(1.2 * predicted_elements(scene, size)).c_str());
   return core::format("--element-size %g or more would fit", size);
 }

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "core/memory.h"
 #include "fem/assembly.h"
 #include "fem/closure.h"
 #include "fem/columns.h"
@@ -24,7 +25,8 @@ class StageClock {
     const auto start = std::chrono::steady_clock::now();
     struct Record {
       ~Record() {
-        stages.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()});
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+        stages.push_back({name, elapsed.count(), core::peak_memory_bytes()});
       }
       std::vector<StageCost>& stages;
       const std::string& name;

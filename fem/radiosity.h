@@ -42,6 +42,7 @@ Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, 
 struct StageCost {
   std::string stage;
   double seconds;
+  double peak_bytes;  ///< most memory that the process ever had, when the stage ended
 };
 
 /// Where the flux goes [W | lm], per channel:  emitted = absorbed + escaped + on_backs + form_factor_error + residual.
@@ -49,7 +50,7 @@ struct EnergyBalance {
   Spectrum emitted, absorbed;
   /// What leaves the elements and reaches none, by rays: through openings, and on black backs.
   Spectrum escaped, on_backs;
-  Spectrum split_error;  ///< standard error of escaped + on_backs
+  Spectrum split_error, on_backs_error;  ///< standard errors of escaped + on_backs, and of on_backs alone
   /// sum_i (1 - row sum_i) A_i B_i - escaped - on_backs: what row sums and rays disagree about.
   Spectrum form_factor_error;
   /// emitted - absorbed - sum_i (1 - row sum_i) A_i B_i: solver error alone.

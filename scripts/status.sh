@@ -4,6 +4,8 @@ set -uo pipefail
 cd "$(dirname "$0")/.."
 export PATH="$PWD/build/release/bin:$PATH"
 mkdir -p out
+tests() { ctest --test-dir build/release --output-on-failure --no-tests=error --parallel "$(nproc)" -R "$1"; }
+export -f tests
 failed=0
 while IFS= read -r line; do
   what=${line#- \[?\] }

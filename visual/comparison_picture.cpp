@@ -9,9 +9,8 @@ core::Image comparison_picture(const results::ComparisonPanels& panels, std::uin
   const double percent = 100 * full_scale;
   const Legend legend{"%", results::ColourMap::blue_white_red, {-percent, percent}, false, false};
   const std::string traced = "path traced, " + core::format_count(samples) + " samples a pixel";
-  const std::string difference = core::format("difference -%.3g %% .. +%.3g %%", percent, percent);
-  return core::side_by_side({framed(panels.fem, "radiosity", nullptr), framed(panels.traced, traced, nullptr),
-                             framed(panels.difference, difference, &legend)},
+  return core::side_by_side({framed(panels.fem, "radiosity, element by element", nullptr), framed(panels.traced, traced, nullptr),
+                             framed(panels.difference, "(radiosity - path traced) / mean", &legend)},
                             0);
 }
 

@@ -156,6 +156,7 @@ TEST(Solve, the_summary_says_what_ran) {
   EXPECT_EQ(summary.at("threads"), 2);
   EXPECT_EQ(summary.at("stopped"), false);
   EXPECT_GT(summary.at("peak_memory_bytes"), 1'000'000);
+  EXPECT_LE(summary.at("peak_memory_bytes_by_stage").at("form factors"), summary.at("peak_memory_bytes"));
   const Outcome all = interflect(
       {"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "--json", "-o", folder / "out"});
   EXPECT_GT(json::parse(all.out).at("threads"), 0) << "as many as were used, not the 0 that asks for all";
