@@ -69,7 +69,7 @@ TEST(Interrupted, a_solve_without_form_factors_leaves_nothing) {
 TEST(Interrupted, a_validation_gives_its_verdict_on_what_it_has_and_says_so_everywhere) {
   const TemporaryFolder folder;
   const Outcome validate = interflect({"validate", shipped_scene("cube"), "--element-size", "0.25", "--all",
-                                       "--accuracy", "0.001%", "--threads", "2", "-o", folder / "out"},
+                                       "--accuracy", "0.05%", "--threads", "2", "-o", folder / "out"},
                                       {.interrupt_when = part_of("path tracing")});
   EXPECT_EQ(validate.status, 1) << validate.err;
   EXPECT_TRUE(contains(validate.out, "not validated: stopped")) << validate.out;
