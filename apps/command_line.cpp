@@ -4,6 +4,7 @@
 #include <cmath>
 #include <charconv>
 #include <memory>
+#include <optional>
 
 #include "core/build_info.h"
 #include "core/error.h"
@@ -14,22 +15,31 @@ namespace {
 
 constexpr const char* example_scene = "data/scenes/cornell_box.json";
 
+/// A number and what follows it.
+struct Quantity {
+  double value;
+  std::string unit;
+};
+
+std::optional<Quantity> quantity_of(const std::string& text) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(text, &used);
+    return Quantity{value, text.substr(used)};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 /// Bytes from "4GB", "512 MB", "1e9": powers of ten, as on a label.
 struct Memory : CLI::Validator {
   Memory() : Validator("SIZE") {
     func_ = [](std::string& text) {
-      std::size_t used = 0;
-      double value = 0;
-      try {
-        value = std::stod(text, &used);
-      } catch (const std::exception&) {
-        return "'" + text + "' is not a size such as 4GB";
-      }
-      std::string unit = text.substr(used);
-      unit.erase(0, unit.find_first_not_of(' '));
+      auto size = quantity_of(text);
+      if (size) size->unit.erase(0, size->unit.find_first_not_of(' '));
       for (const auto& [name, factor] : {std::pair{"", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}})
-        if (unit == name && value > 0) {
-          text = core::format("%.17g", value * factor);
+        if (size && size->unit == name && size->value > 0) {
+          text = core::format("%.17g", size->value * factor);
           return std::string();
         }
       return "'" + text + "' is not a size such as 4GB";
@@ -41,14 +51,8 @@ struct Memory : CLI::Validator {
 struct Length : CLI::Validator {
   Length() : Validator("METRES") {
     func_ = [](std::string& text) {
-      std::size_t used = 0;
-      double value = 0;
-      try {
-        value = std::stod(text, &used);
-      } catch (const std::exception&) {
-        used = 0;
-      }
-      const bool fine = used == text.size() && value > 0 && std::isfinite(value);
+      const auto length = quantity_of(text);
+      const bool fine = length && length->unit.empty() && length->value > 0 && std::isfinite(length->value);
       return fine ? std::string() : "'" + text + "' is not a number of metres above 0";
     };
   }
@@ -58,16 +62,9 @@ struct Length : CLI::Validator {
 struct Fraction : CLI::Validator {
   Fraction() : Validator("PART") {
     func_ = [](std::string& text) {
-      std::size_t used = 0;
-      double value = 0;
-      try {
-        value = std::stod(text, &used);
-      } catch (const std::exception&) {
-        used = 0;
-      }
-      const std::string rest = text.substr(used);
-      if (used == 0 || (!rest.empty() && rest != "%")) return "'" + text + "' is not a part such as 1% or 0.01";
-      value *= rest.empty() ? 1.0 : 0.01;
+      const auto part = quantity_of(text);
+      if (!part || !(part->unit.empty() || part->unit == "%")) return "'" + text + "' is not a part such as 1% or 0.01";
+      const double value = part->value * (part->unit.empty() ? 1.0 : 0.01);
       if (!(value > 0 && value < 1)) return "'" + text + "' is outside 0 .. 100 %";
       text = core::format("%.17g", value);
       return std::string();

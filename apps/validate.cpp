@@ -64,7 +64,7 @@ void add_reason(const std::string& reason, Certificate& certificate) {
 
 Certificate certified(const SolvedScene& solved, std::span<const Judged> judged, double accuracy, const Run& run) {
   validation::Settings settings;
-  settings.accuracy = accuracy_of_norms * accuracy;
+  settings.reference_limit = accuracy_of_norms * accuracy;
   Certificate certificate =
       validation::certify(solved.scene, judged, fem_energy(solved.solution.energy), traced_energy(solved, judged), settings);
   const solvers::SolverReport& solver = solved.solution.solver;

@@ -98,7 +98,7 @@ Record certificate_record(const Certificate& certificate, std::span<const Judged
       .add("share", certificate.settings.share)
       .add("alpha", certificate.settings.alpha)
       .add("comparisons", certificate.comparisons)
-      .add("reference_limit", certificate.settings.accuracy);
+      .add("reference_limit", certificate.settings.reference_limit);
   out.section("judged")
       .add("surfaces", certificate.surfaces)
       .add("elements", certificate.elements)

@@ -176,10 +176,10 @@ Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, c
   const Norms& norms = certificate.judgements.front().norms();
   if (norms.measurements == 0)
     certificate.reasons.insert(certificate.reasons.begin(), "no surface and no element was judged");
-  if (norms.reference_error > settings.accuracy)
+  if (norms.reference_error > settings.reference_limit)
     certificate.reasons.push_back(
         format("the reference is too noisy to judge by: its 95 %% error is %s, and %s was asked for",
-               percent(norms.reference_error).c_str(), percent(settings.accuracy).c_str()));
+               percent(norms.reference_error).c_str(), percent(settings.reference_limit).c_str()));
   remark_on_bias(certificate);
   find_worst_surface(judged, certificate);
   check_energy(scene, certificate);
