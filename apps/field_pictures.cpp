@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/pictures.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "results/image_file.h"
@@ -89,9 +90,8 @@ void write_field_pictures(const SolvedScene& solved, const std::filesystem::path
   if (cameras.empty()) cameras.emplace_back();
   for (std::size_t k = 0; k < cameras.size(); ++k) {
     const std::vector<double> shares = shares_in_view(solved, cameras[k]);
-    const std::string number = k == 0 ? "" : "_" + std::to_string(k + 1);
-    results::write_png(folder / ("radiosity" + number + ".png"), radiosity_picture(*display, solved, cameras[k], shares));
-    results::write_png(folder / ("irradiance" + number + ".png"), irradiance_picture(*display, solved, cameras[k], shares));
+    results::write_png(folder / picture_file("radiosity", k), radiosity_picture(*display, solved, cameras[k], shares));
+    results::write_png(folder / picture_file("irradiance", k), irradiance_picture(*display, solved, cameras[k], shares));
   }
 }
 

@@ -38,12 +38,11 @@ core::Image beside_each_other(const results::ComparisonPanels& panels, [[maybe_u
 #endif
 }
 
-/// Numbered: a camera's name need not be one for a file.
-std::string file_name(std::uint32_t camera) {
-  return camera == 0 ? "validation.png" : core::format("validation_%u.png", camera + 1);
-}
-
 }  // namespace
+
+std::string picture_file(const std::string& name, std::size_t camera) {
+  return camera == 0 ? name + ".png" : core::format("%s_%zu.png", name.c_str(), camera + 1);
+}
 
 void write_comparisons(const SolvedScene& solved, const ValidateOptions& options, Run& run) try {
   for (std::uint32_t c = 0; c < solved.scene.cameras.size(); ++c) {
@@ -52,7 +51,7 @@ void write_comparisons(const SolvedScene& solved, const ValidateOptions& options
     const auto samples = static_cast<std::uint64_t>(options.picture_samples);
     const montecarlo::Rendering traced = montecarlo::render(solved.scene, {c}, samples, run, options.solve.settings.intersector);
     const auto panels = results::comparison_panels(solved.scene, fem, traced.radiance, difference_scale);
-    results::write_png(options.solve.out / file_name(c), beside_each_other(panels, traced.samples));
+    results::write_png(options.solve.out / picture_file("validation", c), beside_each_other(panels, traced.samples));
   }
 } catch (const core::Interrupted&) {
   core::log::warning("stopped: not every picture was drawn");

@@ -40,9 +40,10 @@ void write_field(const SolvedScene& solved, std::span<const Judged> judged, cons
   for (std::size_t k = 0; k < judged.size(); ++k) {
     if (judged[k].kind != Judged::Kind::element) continue;
     const auto i = static_cast<std::size_t>(judged[k].element);
-    const validation::Difference& d = certificate.judgements.front().comparison.differences[k];
+    const validation::Judgement& weighted = certificate.judgements.front();
+    const validation::Difference& d = weighted.comparison.differences[k];
     mc[i] = d.mc;
-    standard_error[i] = scene.weigh(judged[k].mc.standard_error);
+    standard_error[i] = weighted.reading.noise(judged[k].mc).standard_error;
     relative[i] = d.mc != 0 ? d.difference() / d.mc : not_judged;
     z[i] = d.z;
   }
