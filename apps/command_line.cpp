@@ -1,8 +1,9 @@
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -199,6 +200,24 @@ std::string version_text() {
                       build.compiler.c_str(), build.spectrum_capacity);
 }
 
+/// What is wrong, in the words of who typed it: the parser's own name neither a mistyped command nor, first, a mistyped option.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
+  const auto given = app.get_subcommands();
+  const std::string command = given.empty() ? "interflect" : "interflect " + given.front()->get_name();
+  const std::vector<std::string> left = app.remaining(true);
+  const auto is_option = [](const std::string& word) { return word.rfind('-', 0) == 0; };
+  const auto option = std::find_if(left.begin(), left.end(), is_option), word = std::find_if_not(left.begin(), left.end(), is_option);
+  std::string what = error.what();
+  if (given.empty()) {
+    std::string names;
+    for (const CLI::App* sub : app.get_subcommands({})) names += (names.empty() ? "" : ", ") + sub->get_name();
+    what = (word != left.end() ? "'" + *word + "' is no command" : "a command is missing") + "; there are " + names;
+  } else if (option != left.end()) {
+    what = *option + " is no option of " + command;
+  }
+  return what + "; " + command + " --help tells more";
+}
+
 }  // namespace
 
 std::optional<Command> parse_command_line(int argc, char** argv) {
@@ -222,7 +241,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
     app.exit(asked);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw core::InputError("command line", std::string(error.what()) + "; interflect --help tells more");
+    throw core::InputError("command line", complaint(app, error));
   }
   for (int i = 0; i < argc; ++i) command.common.command_line += (i > 0 ? " " : "") + std::string(argv[i]);
   return command;

@@ -24,7 +24,10 @@ std::string spectrum_text(const Spectrum& s, int channels) {
 const char* sides_text(scene::Sides sides) { return sides == scene::Sides::both ? "both" : "front"; }
 
 std::string closedness_text(const scene::Inspection& inspection) {
-  return inspection.closed() ? "closed" : core::format("open: %.4g m of edges without a neighbour", inspection.open_edge_length);
+  if (inspection.closed()) return "closed";
+  const bool gaps = inspection.has(scene::Inspection::Finding::Kind::gap);
+  return core::format("%s: %.4g m of edges without a neighbour", gaps ? "open" : "no gaps, but rims of two-sided surfaces",
+                      inspection.open_edge_length);
 }
 
 std::string surfaces_text(const scene::Scene& scene) {
@@ -33,6 +36,26 @@ std::string surfaces_text(const scene::Scene& scene) {
     table.add({scene.surface(id).name, core::format("%.6g", scene.area(id)), std::to_string(scene.surface(id).facets),
                sides_text(scene.material(id).sides), scene.material(id).name});
   return table.text();
+}
+
+/// What shines, and where: "lamp  0.36 m2, 1200 lm, faces (0, 0, -1)"; a side that is not flat faces its mean normal.
+std::string emitters_text(const scene::Scene& scene) {
+  constexpr std::size_t most = 20;  // lines; the rest is counted
+  std::string text;
+  std::size_t count = 0;
+  for (scene::SurfaceId id : scene.surface_ids())
+    for (scene::Side side : {scene::Side::front, scene::Side::back}) {
+      const Spectrum exitance = scene.material(id).exitance_of(side);
+      if (exitance.is_zero() || !scene.material(id).active(side) || ++count > most) continue;
+      Vec3 facing = Vec3::Zero();
+      for (const scene::Facet& facet : scene.facets_of(id)) facing += facet.area * facet.normal;
+      facing = (side == scene::Side::front ? 1 : -1) / scene.area(id) * facing;
+      facing = (1e3 * facing).array().round() / 1e3 + 0.0;  // no "-0"
+      text += core::format("emitter        %s: %.4g m2, %.6g %s, faces (%.3g, %.3g, %.3g)\n", scene.side_name(id, side).c_str(),
+                           scene.area(id), scene.weigh(exitance) * scene.area(id), scene.flux_unit(), facing.x(), facing.y(), facing.z());
+    }
+  if (count > most) text += core::format("               and %zu more emitters\n", count - most);
+  return text;
 }
 
 std::string materials_text(const scene::Scene& scene) {
@@ -56,6 +79,7 @@ void print_text(const scene::Scene& scene, const scene::Inspection& inspection) 
   std::printf("channels       %s\n", channels.c_str());
   std::printf("emitted flux   %.6g %s (%s)\n", scene.weigh(scene.emitted_flux()), scene.flux_unit(),
               spectrum_text(scene.emitted_flux(), scene.channel_count()).c_str());
+  std::printf("%s", emitters_text(scene).c_str());
   std::printf("geometry       %s\n", closedness_text(inspection).c_str());
   std::printf("sensors        %zu\ncameras        %zu\n", scene.sensors.size(), scene.cameras.size());
   for (const scene::Camera& camera : scene.cameras)

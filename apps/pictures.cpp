@@ -50,7 +50,7 @@ void write_comparisons(const SolvedScene& solved, const ValidateOptions& options
     const core::Image fem = picture_of(solved.method(), solved.scene, {c}, run);
     const auto samples = static_cast<std::uint64_t>(options.picture_samples);
     const montecarlo::Rendering traced = montecarlo::render(solved.scene, {c}, samples, run, options.solve.settings.intersector);
-    const auto panels = results::comparison_panels(solved.scene, fem, traced.radiance, difference_scale);
+    const auto panels = results::comparison_panels(solved.scene, fem, traced.radiance, traced.standard_error, difference_scale);
     results::write_png(options.solve.out / picture_file("validation", c), beside_each_other(panels, traced.samples));
   }
 } catch (const core::Interrupted&) {

@@ -38,7 +38,7 @@ void ask_elements(const scene::Scene& scene, const mesh::ElementMesh& mesh, std:
   for (const validation::ChosenElement& chosen : validation::choose_elements(areas, part_of, count, seed)) {
     const auto [name, emitting] = side_of(scene, mesh.parts()[part_of[static_cast<std::size_t>(chosen.element)]]);
     questions.asked.emplace_back(measure::PatchIrradiance{mesh.patches()[static_cast<std::size_t>(chosen.element)]});
-    questions.judged.push_back({.name = core::format("element %lld", static_cast<long long>(chosen.element)), .kind = Judged::Kind::element,
+    questions.judged.push_back({.name = core::format("%s, element %lld", name.c_str(), static_cast<long long>(chosen.element)), .kind = Judged::Kind::element,
                                 .element = chosen.element, .area = areas[static_cast<std::size_t>(chosen.element)],
                                 .emitting = emitting, .fem = {}, .mc = {}, .group = name, .weight = chosen.represented_area});
   }
@@ -54,11 +54,11 @@ void ask_sensors(std::span<const measure::SensorPoint> points, Questions& questi
 
 }  // namespace
 
-Questions questions_about(const scene::Scene& scene, const fem::RadiositySolution& solution,
+Questions questions_about(const scene::Scene& scene, const mesh::ElementMesh& mesh,
                           std::span<const measure::SensorPoint> points, std::size_t elements, std::uint64_t seed) {
   Questions questions;
-  ask_surfaces(scene, solution.mesh, questions);
-  ask_elements(scene, solution.mesh, elements, seed, questions);
+  ask_surfaces(scene, mesh, questions);
+  ask_elements(scene, mesh, elements, seed, questions);
   ask_sensors(points, questions);
   return questions;
 }

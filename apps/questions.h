@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fem/radiosity.h"
 #include "measure/measurement.h"
 #include "measure/sensor_points.h"
+#include "mesh/element_mesh.h"
 #include "scene/scene.h"
 #include "validation/judged.h"
 
@@ -21,7 +21,7 @@ struct Questions {
 
 /// Every active side of every surface, the sensor points, and `elements` elements (all of them where that is not below their
 /// number), chosen by strata.
-Questions questions_about(const scene::Scene& scene, const fem::RadiositySolution& solution,
+Questions questions_about(const scene::Scene& scene, const mesh::ElementMesh& mesh,
                           std::span<const measure::SensorPoint> points, std::size_t elements, std::uint64_t seed);
 
 }  // namespace interflect::apps

@@ -1,9 +1,21 @@
 #include <cstdio>
 
 #include "apps/commands.h"
+#include "apps/read_scene.h"
 #include "apps/solution_files.h"
 
 namespace interflect::apps {
+
+namespace {
+
+/// With --forecast, what the solve will need is the result.
+ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
+  const fem::Forecast forecast = fem::forecast(read_and_note(options.scene), options.settings, run);
+  std::printf("%s\n", common.json ? results::json_text(forecast_record(forecast)).c_str() : describe(forecast).c_str());
+  return success;
+}
+
+}  // namespace
 
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run) {
   if (options.forecast_only) return print_forecast(options, common, run);

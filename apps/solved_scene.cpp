@@ -62,12 +62,6 @@ results::Record forecast_record(const fem::Forecast& forecast) {
   return record.add("bytes", forecast.bytes).add("seconds", forecast.seconds);
 }
 
-ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
-  const fem::Forecast forecast = fem::forecast(read_and_note(options.scene), options.settings, run);
-  std::printf("%s\n", common.json ? results::json_text(forecast_record(forecast)).c_str() : describe(forecast).c_str());
-  return success;
-}
-
 std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run) {
   scene::Scene scene = read_and_note(options.scene);
   const fem::Forecast forecast = fem::forecast(scene, options.settings, run);

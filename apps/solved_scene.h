@@ -40,9 +40,6 @@ struct SolvedScene {
 std::string describe(const fem::Forecast& forecast);
 results::Record forecast_record(const fem::Forecast& forecast);
 
-/// All that a command does with --forecast: reads the scene and prints what a solve will need, which is its result.
-ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run);
-
 /// Reads, forecasts, prepares the output folder, solves, answers the sensors, and warns of what the solution shows.
 /// @throws core::InputError, core::Interrupted
 std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run);

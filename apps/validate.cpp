@@ -3,6 +3,7 @@
 #include "apps/commands.h"
 #include "apps/pictures.h"
 #include "apps/questions.h"
+#include "apps/read_scene.h"
 #include "apps/solution_files.h"
 #include "apps/validation_files.h"
 #include "core/error.h"
@@ -80,19 +81,38 @@ PathTracer tracer_for(const ValidateOptions& options) {
   return PathTracer(settings);
 }
 
-Questions questions_of(const SolvedScene& solved, const ValidateOptions& options, std::uint64_t seed) {
-  const auto all = static_cast<std::size_t>(solved.solution.mesh.size()), some = static_cast<std::size_t>(options.elements);
-  return questions_about(solved.scene, solved.solution, solved.points, options.all_elements ? all : some, seed);
+Questions questions_of(const scene::Scene& scene, const mesh::ElementMesh& mesh, std::span<const measure::SensorPoint> points,
+                       const ValidateOptions& options, std::uint64_t seed) {
+  const auto all = static_cast<std::size_t>(mesh.size()), some = static_cast<std::size_t>(options.elements);
+  return questions_about(scene, mesh, points, options.all_elements ? all : some, seed);
+}
+
+std::string tracing_text(const Questions& questions, const ValidateOptions& options, double seconds) {
+  return core::format("tracing %s measurements to %.2g %%, about %s", core::format_count(questions.asked.size()).c_str(),
+                      100 * options.accuracy, core::format_duration(seconds).c_str());
+}
+
+/// With --forecast, what the solve and the tracing will need is the result; the pictures come on top.
+ExitStatus print_forecast(const ValidateOptions& options, const CommonOptions& common, Run& run) {
+  const scene::Scene scene = read_and_note(options.solve.scene);
+  const fem::Forecast solve = fem::forecast(scene, options.solve.settings, run);
+  const mesh::ElementMesh mesh = fem::elements_of(scene, options.solve.settings);
+  const Questions questions = questions_of(scene, mesh, measure::sensor_points(scene), options, run.seed);
+  const double seconds = tracer_for(options).forecast(scene, questions.asked, run);
+  results::Record record = forecast_record(solve);
+  record.add("measurements", static_cast<std::uint64_t>(questions.asked.size())).add("tracing_seconds", seconds);
+  std::printf("%s\n", common.json ? results::json_text(record).c_str()
+                                  : (describe(solve) + "; then " + tracing_text(questions, options, seconds)).c_str());
+  return success;
 }
 
 /// Asks both methods; where a stop leaves nothing to judge by, summary.json tells of it.
 std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOptions& options, const CommonOptions& common,
                                     Run& run) try {
-  const Questions questions = questions_of(solved, options, run.seed);
+  const Questions questions = questions_of(solved.scene, solved.solution.mesh, solved.points, options, run.seed);
   const PathTracer tracer = tracer_for(options);
   if (!common.json && !common.quiet)
-    std::printf("\ntracing %s measurements to %.2g %%, about %s\n", core::format_count(questions.asked.size()).c_str(),
-                100 * options.accuracy, core::format_duration(tracer.forecast(solved.scene, questions.asked, run)).c_str());
+    std::printf("\n%s\n", tracing_text(questions, options, tracer.forecast(solved.scene, questions.asked, run)).c_str());
   std::fflush(stdout);
   return judge(solved, questions, tracer, run);
 } catch (const core::Interrupted&) {
@@ -103,7 +123,7 @@ std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOpt
 }  // namespace
 
 ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run) {
-  if (options.solve.forecast_only) return print_forecast(options.solve, common, run);
+  if (options.solve.forecast_only) return print_forecast(options, common, run);
   const auto solved = solve_scene(options.solve, common, run);
   write_solution(*solved, options.solve, common, run);
   const bool talk = !common.json && !common.quiet;

@@ -65,6 +65,11 @@ const validation::Norms& dark_norms(const validation::Judgement& j) {
   return j.elements_dark.measurements > 0 ? j.elements_dark : j.surfaces_dark;
 }
 
+std::string expected_text(const validation::ExpectedCheck& e) {
+  return core::format("expected of %s: %s %.6g +- %s; FEM %.6g, path tracing %.6g: %s\n", e.sensor.c_str(), e.statistic.c_str(), e.expected,
+                      core::format_percent(e.tolerance).c_str(), e.fem, e.mc, e.passed() ? "holds" : "does not hold");
+}
+
 }  // namespace
 
 void write_traced(const SolvedScene& solved, std::span<const Judged> judged, const Certificate& certificate,
@@ -99,6 +104,7 @@ std::string certificate_text(const Certificate& certificate) {
   std::string text = "\n" + table.text() + "\n";
   if (!certificate.worst_surface.empty())
     text += core::format("worst surface: %s, %+.2f %%\n", certificate.worst_surface.c_str(), 100 * certificate.worst_surface_difference);
+  for (const validation::ExpectedCheck& e : certificate.expected) text += expected_text(e);
   for (const std::string& reason : certificate.reasons) text += "not validated: " + reason + "\n";
   for (const std::string& remark : certificate.remarks) text += "remark: " + remark + "\n";
   return text + certificate.verdict + "\n";

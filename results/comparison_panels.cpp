@@ -1,5 +1,8 @@
 #include "results/comparison_panels.h"
 
+#include <cmath>
+#include <vector>
+
 #include "core/error.h"
 #include "results/colour_map.h"
 #include "results/tone_mapping.h"
@@ -10,32 +13,58 @@ namespace {
 
 constexpr int block = 6;  // pixels of a side
 
-core::Image block_means(const scene::Scene& scene, const core::Image& image) {
-  core::Image means((image.width + block - 1) / block, (image.height + block - 1) / block, {"Y", "pixels"});
+/// A picture's means over blocks: its weighted value, or, of a picture of independent standard errors, that of the mean.
+struct Blocks {
+  Blocks(int width, int height) : across((width + block - 1) / block), mean(static_cast<std::size_t>(across * ((height + block - 1) / block))) {}
+  std::size_t of(int x, int y) const { return static_cast<std::size_t>(y / block * across + x / block); }
+  double at(int x, int y) const { return mean[of(x, y)]; }
+
+  int across;
+  std::vector<double> mean;
+};
+
+std::vector<int> pixels_of(const Blocks& blocks, const core::Image& image) {
+  std::vector<int> pixels(blocks.mean.size(), 0);
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      means.at(x / block, y / block, 0) += static_cast<float>(scene.weigh(image.pixel(x, y)));
-      means.at(x / block, y / block, 1) += 1;
+    for (int x = 0; x < image.width; ++x) ++pixels[blocks.of(x, y)];
+  return pixels;
+}
+
+Blocks block_means(const scene::Scene& scene, const core::Image& image) {
+  Blocks blocks(image.width, image.height);
+  const std::vector<int> pixels = pixels_of(blocks, image);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      blocks.mean[blocks.of(x, y)] += scene.weigh(image.pixel(x, y)) / pixels[blocks.of(x, y)];
+  return blocks;
+}
+
+/// sqrt(sum SE^2) / pixels.  A pixel's channels stem from the same paths: their errors add up as if they were one.
+Blocks block_noise(const scene::Scene& scene, const core::Image& noise) {
+  Blocks blocks(noise.width, noise.height);
+  const std::vector<int> pixels = pixels_of(blocks, noise);
+  for (int y = 0; y < noise.height; ++y)
+    for (int x = 0; x < noise.width; ++x) {
+      const double error = scene.weigh(noise.pixel(x, y)) / pixels[blocks.of(x, y)];
+      blocks.mean[blocks.of(x, y)] += error * error;
     }
-  for (int y = 0; y < means.height; ++y)
-    for (int x = 0; x < means.width; ++x) means.at(x, y, 0) /= means.at(x, y, 1);
-  return means;
+  for (double& variance : blocks.mean) variance = std::sqrt(variance);
+  return blocks;
 }
 
-/// Where both are dark they agree.
-double relative_difference(double fem, double traced) {
+/// 0 where noise may be all, as where both are dark.
+double relative_difference(double fem, double traced, double noise) {
   const double mean = 0.5 * (fem + traced);
-  return mean > 0 ? (fem - traced) / mean : 0;
+  return std::abs(fem - traced) > 3 * noise && mean > 0 ? (fem - traced) / mean : 0;
 }
 
-core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
+core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, const core::Image& traced, const core::Image& noise,
                              double full_scale) {
-  const core::Image a = block_means(scene, fem), b = block_means(scene, traced);
+  const Blocks a = block_means(scene, fem), b = block_means(scene, traced), error = block_noise(scene, noise);
   core::Image picture(fem.width, fem.height, {"R", "G", "B"});
   for (int y = 0; y < fem.height; ++y)
     for (int x = 0; x < fem.width; ++x) {
-      const double difference = relative_difference(static_cast<double>(a.at(x / block, y / block, 0)),
-                                                    static_cast<double>(b.at(x / block, y / block, 0)));
+      const double difference = relative_difference(a.at(x, y), b.at(x, y), error.at(x, y));
       const Colour colour = colour_of(ColourMap::blue_white_red, 0.5 + 0.5 * difference / full_scale);
       for (int c = 0; c < 3; ++c)
         picture.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]) / 255.0F;
@@ -46,12 +75,13 @@ core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, 
 }  // namespace
 
 ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
-                                   double full_scale) {
-  if (fem.width != traced.width || fem.height != traced.height || !(full_scale > 0))
+                                   const core::Image& noise, double full_scale) {
+  const auto same_size = [&](const core::Image& other) { return other.width == fem.width && other.height == fem.height; };
+  if (!same_size(traced) || !same_size(noise) || !(full_scale > 0))
     throw core::PreconditionError("comparison_panels: pictures of one size and a scale above 0 expected");
   const core::Image left = as_rgb(scene, fem), right = as_rgb(scene, traced);
   const ToneMapping tone{.white = white_of(right)};
-  return {tone_mapped(left, tone), tone_mapped(right, tone), difference_panel(scene, fem, traced, full_scale)};
+  return {tone_mapped(left, tone), tone_mapped(right, tone), difference_panel(scene, fem, traced, noise, full_scale)};
 }
 
 }  // namespace interflect::results

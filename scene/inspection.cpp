@@ -8,14 +8,18 @@ namespace interflect::scene {
 
 using Kind = Inspection::Finding::Kind;
 
-bool Inspection::closed() const {
-  return std::none_of(findings.begin(), findings.end(), [](const Finding& f) { return f.kind == Kind::gap; });
+bool Inspection::has(Kind kind) const {
+  return std::any_of(findings.begin(), findings.end(), [kind](const Finding& f) { return f.kind == kind; });
 }
+
+bool Inspection::closed() const { return !has(Kind::gap) && !has(Kind::rim); }
 
 std::string describe(Kind kind) {
   switch (kind) {
     case Kind::gap:
       return "gap (open edge)";
+    case Kind::rim:
+      return "rim of a two-sided surface";
     case Kind::inconsistent_normals:
       return "neighbours face opposite ways";
     case Kind::duplicate_faces:

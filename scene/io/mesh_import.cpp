@@ -1,6 +1,7 @@
 #include "scene/io/mesh_import.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -17,9 +18,14 @@ using Triangles = std::vector<geometry::TriangleCorners>;
 /// Area over the squared diameter below which a face has none.
 constexpr double flatness = 1e-12;
 
+/// Width of a face below which it may not be cut further, in units of its coordinates' rounding: its quarters would have no area.
+constexpr double resolution = 64 * std::numeric_limits<double>::epsilon();
+
 bool has_area(std::span<const Vec3> ring) {
-  const double diameter = geometry::box_of(ring).diagonal().norm();
-  return ring.size() >= 3 && geometry::vector_area(ring).norm() > flatness * diameter * diameter;
+  if (ring.size() < 3) return false;
+  const geometry::Box box = geometry::box_of(ring);
+  const double diameter = box.diagonal().norm(), distance = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return geometry::vector_area(ring).norm() > diameter * std::max(flatness * diameter, resolution * distance);
 }
 
 /// A planar convex quad in two halves at its shorter diagonal; nothing if it is not one.

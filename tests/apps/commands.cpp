@@ -76,6 +76,23 @@ TEST(Check, finds_a_hole_and_a_flipped_wall) {
   EXPECT_TRUE(contains(check.out, "neighbours face opposite ways: 2\n")) << check.out;
   EXPECT_TRUE(contains(check.out, "floor and south: 1 m")) << check.out;
   EXPECT_TRUE(contains(check.out, "floor sees black backs in ")) << check.out;
+  EXPECT_TRUE(contains(check.out, "3 of 3 sides of surfaces see out of the scene")) << check.out;
+}
+
+// A unit room with a two-sided sheet that hangs in it.
+const std::string room_with_a_sheet = R"({ "format": "interflect/scene/1", "units": "m",
+  "materials": { "wall": { "type": "diffuse", "reflectance": 0.5, "exitance": 1 },
+                 "sheet": { "type": "diffuse", "reflectance": 0.5, "sides": "both" } },
+  "geometry": [
+    { "box": { "min": [0,0,0], "max": [1,1,1] }, "facing": "inward", "material": "wall", "name": "room" },
+    { "polygon": [[0.3,0.3,0.5],[0.7,0.3,0.5],[0.7,0.7,0.5],[0.3,0.7,0.5]], "material": "sheet", "name": "sheet" } ] })";
+
+TEST(Check, is_content_with_the_rim_of_a_sheet_that_stands_free) {
+  const TemporaryFolder folder;
+  const Outcome check = interflect({"check", folder.write("sheet.json", room_with_a_sheet)});
+  EXPECT_EQ(check.status, 0) << check.out << check.err;
+  EXPECT_TRUE(contains(check.out, "rim of a two-sided surface: 4\n")) << check.out;
+  EXPECT_TRUE(contains(check.out, "no ray leaves the scene")) << check.out;
 }
 
 TEST(Solve, warns_of_flux_on_black_backs) {
@@ -142,6 +159,7 @@ TEST(Solve, a_forecast_is_a_result_and_needs_no_folder) {
     const Outcome as_json = interflect({command, shipped_scene("office"), "--forecast", "--json"});
     const json said = json::parse(as_json.out);
     for (const char* key : {"elements", "bytes", "seconds"}) EXPECT_GT(said.at(key), 0) << key;
+    EXPECT_EQ(said.contains("tracing_seconds"), std::string(command) == "validate");
   }
 }
 

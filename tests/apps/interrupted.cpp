@@ -88,7 +88,7 @@ TEST(Interrupted, a_validation_stopped_at_its_pictures_keeps_its_verdict) {
                                        "--picture-spp", "5000", "--threads", "2", "-o", folder / "out"},
                                       {.interrupt_when = part_of("rendering inside")});
   EXPECT_EQ(validate.status, 1) << validate.err;
-  EXPECT_TRUE(contains(validate.out, "\nFEM within")) << validate.out;
+  EXPECT_TRUE(contains(validate.out, "\nValidated: FEM within")) << validate.out;
   const auto certificate = json_of(folder / "out/validation.json");
   EXPECT_EQ(certificate.at("stopped"), true);
   EXPECT_EQ(certificate.at("passed"), true);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/error.h"
 #include "results/colour_map.h"
 
@@ -35,8 +37,8 @@ Colour colour_at(const core::Image& image, int x, int y) {
 
 TEST(ComparisonPanels, the_difference_is_relative_to_the_mean_and_of_the_weighted_radiance) {
   // (41 - 39) / 40 = 5 %, half of the full scale; the band without weight differs by more and does not count.
-  const ComparisonPanels brighter = comparison_panels(two_bands(), even(41, 1), even(39, 100), 0.1);
-  const ComparisonPanels darker = comparison_panels(two_bands(), even(39, 1), even(41, 100), 0.1);
+  const ComparisonPanels brighter = comparison_panels(two_bands(), even(41, 1), even(39, 100), even(0.5F, 0), 0.1);
+  const ComparisonPanels darker = comparison_panels(two_bands(), even(39, 1), even(41, 100), even(0.5F, 0), 0.1);
   for (const auto& [x, y] : {std::pair{0, 0}, {12, 6}}) {  // the last block is smaller than the others
     EXPECT_EQ(colour_at(brighter.difference, x, y), colour_of(ColourMap::blue_white_red, 0.75));
     EXPECT_EQ(colour_at(darker.difference, x, y), colour_of(ColourMap::blue_white_red, 0.25));
@@ -51,14 +53,23 @@ TEST(ComparisonPanels, noise_of_single_pixels_is_averaged_and_darkness_agrees) {
   core::Image fem = even(0, 0);
   for (int y = 0; y < fem.height; ++y)
     for (int x = 0; x < 6; ++x) fem.at(x, y, 0) = smooth.at(x, y, 0);
-  const core::Image difference = comparison_panels(two_bands(), fem, noisy, 0.1).difference;
+  const core::Image difference = comparison_panels(two_bands(), fem, noisy, even(0, 0), 0.1).difference;
   EXPECT_EQ(colour_at(difference, 3, 3), colour_of(ColourMap::blue_white_red, 0.5));
   EXPECT_EQ(colour_at(difference, 9, 3), colour_of(ColourMap::blue_white_red, 0.5));
 }
 
+TEST(ComparisonPanels, what_noise_may_explain_stays_white) {
+  // 36 pixels of a standard error s each: that of their mean is s / 6, and 2 is more than three of them below s = 4.
+  const Colour white = colour_of(ColourMap::blue_white_red, 0.5), half = colour_of(ColourMap::blue_white_red, 0.75);
+  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(3.9F, 0), 0.1).difference, 0, 0), half);
+  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(4.1F, 0), 0.1).difference, 0, 0), white);
+  const auto unknown = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(unknown, unknown), 0.1).difference, 0, 0), white);
+}
+
 TEST(ComparisonPanels, both_pictures_have_the_exposure_of_the_traced_one) {
-  const ComparisonPanels panels = comparison_panels(two_bands(), even(0.5F, 0), even(1, 0), 0.1);
+  const ComparisonPanels panels = comparison_panels(two_bands(), even(0.5F, 0), even(1, 0), even(0, 0), 0.1);
   EXPECT_FLOAT_EQ(panels.traced.at(0, 0, 0), 1);
   EXPECT_NEAR(panels.fem.at(0, 0, 0), 0.735357, 1e-6);  // sRGB of 0.5
-  EXPECT_THROW(comparison_panels(two_bands(), even(1, 1), even(1, 1, 5, 5), 0.1), core::PreconditionError);
+  EXPECT_THROW(comparison_panels(two_bands(), even(1, 1), even(1, 1, 5, 5), even(1, 1), 0.1), core::PreconditionError);
 }

@@ -84,6 +84,37 @@ TEST(Inspect, a_gap_of_a_millimetre_is_found_and_one_of_a_nanometre_is_none) {
   }
 }
 
+TEST(Inspect, a_body_without_a_bottom_and_a_partition_are_closed_by_the_floor_they_stand_on_at_any_scale) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    Site site;
+    site.builder.add_box("room", Box(Vec3(0, 0, 0), scale * Vec3(5, 4, 3)), site.wall, Facing::inward);
+    site.builder.add_polygon("partition", {{scale * Vec3(2, 0, 0), scale * Vec3(2, 4, 0), scale * Vec3(2, 4, 3), scale * Vec3(2, 0, 3)}, {}},
+                             site.sheet);
+    const Box body(scale * Vec3(3, 1, 0), scale * Vec3(4, 2, 1));
+    site.builder.add_box("body", body, site.wall);
+    Scene scene = site.builder.finish();
+    std::erase_if(scene.facets, [&](const Facet& f) { return scene.surface(f.surface).name == "body/z-"; });
+    EXPECT_TRUE(inspect(scene).findings.empty());
+  }
+}
+
+TEST(Inspect, a_foot_that_hangs_over_the_edge_of_the_floor_is_open_there) {
+  Site site;
+  site.builder.add_polygon("floor", {square(0, 0, 0, 2), {}}, site.wall);
+  site.builder.add_polygon("wall", {{{1, 1, 0}, {2.5, 1, 0}, {2.5, 1, 1}, {1, 1, 1}}, {}}, site.wall);
+  const Inspection inspection = inspect(site.builder.finish());
+  EXPECT_NEAR(inspection.open_edge_length, 8 + 1 + 1.5 + 1 + 0.5, 1e-12);
+}
+
+TEST(Inspect, the_rim_of_a_two_sided_sheet_is_told_from_a_gap) {
+  Site site;
+  site.builder.add_polygon("sheet", {square(0, 0, 0, 1), {}}, site.sheet);
+  const Inspection inspection = inspect(site.builder.finish());
+  EXPECT_EQ(of_kind(inspection, Kind::rim).size(), 4u);
+  EXPECT_FALSE(inspection.has(Kind::gap));
+  EXPECT_FALSE(inspection.closed());
+}
+
 TEST(Inspect, a_flipped_wall_disagrees_with_its_neighbours) {
   Site site;
   site.builder.add_box("room", Box(Vec3(0, 0, 0), Vec3(5, 4, 3)), site.wall, Facing::inward);

@@ -28,7 +28,7 @@ TEST(Certificate, good_data_pass_with_a_verdict_in_one_sentence) {
   const Certificate c = certificate_of(synthetic::judged({.spread = 0.01, .bound = 0.03}, 1));
   EXPECT_TRUE(c.passed) << c.verdict;
   EXPECT_TRUE(c.reasons.empty());
-  EXPECT_EQ(c.verdict.rfind("FEM within 1.", 0), 0u) << c.verdict;
+  EXPECT_EQ(c.verdict.rfind("Validated: FEM within 1.", 0), 0u) << c.verdict;
   EXPECT_NE(c.verdict.find(" % (L2 of H) of the path-traced reference, whose own 95 % error is 1."), std::string::npos)
       << c.verdict;
   EXPECT_NE(c.verdict.find(" %; bias "), std::string::npos) << c.verdict;
