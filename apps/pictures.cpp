@@ -25,7 +25,7 @@ core::Image picture_of(const measure::Method& method, const scene::Scene& scene,
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
       for (int c = 0; c < scene.channel_count(); ++c)
-        image.at(x, y, c) = static_cast<float>(found[static_cast<std::size_t>(y * image.width + x)].value[c]);
+        image.at(x, y, c) = static_cast<float>(found[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)].value[c]);
   return image;
 }
 

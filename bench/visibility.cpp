@@ -37,7 +37,7 @@ struct Pair {
 /// Pairs that orientation and shafts leave to the rays, in the order of assembly, until there are rays enough.
 std::vector<Pair> sampled_pairs(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int rays) {
   const fem::PairIntegrator integrate(patches, 1e-2);
-  const fem::Blockers blockers(scene, integrate.shapes().origin());
+  const fem::Blockers blockers(scene, integrate.shapes().origin(), integrate.shapes().plane_tolerance());
   std::vector<Pair> pairs;
   std::size_t count = 0;
   const auto n = static_cast<Index>(patches.size());

@@ -64,7 +64,7 @@ class RandomNumbers {
       block_ = random_block(seed_, stream_, index_, next_block_++);
       used_ = 0;
     }
-    const auto at = static_cast<std::size_t>(2 * used_++);
+    const std::size_t at = 2 * static_cast<std::size_t>(used_++);
     return uniform_53(block_[at], block_[at + 1]);
   }
   /// Continue at dimension 2 * block: a decision owns its dimensions, whatever earlier ones consumed.

@@ -54,7 +54,7 @@ Gather::Gather(const scene::Scene& scene, std::span<const scene::SurfacePatch> p
       rays_per_point_(rays_per_point),
       shapes_(patches),
       clusters_(clusters_of(patches, shapes_)),
-      blockers_(scene, shapes_.origin()) {}
+      blockers_(scene, shapes_.origin(), shapes_.plane_tolerance()) {}
 
 /// Cuts a part that is near: its quarters, each with its own factor and rays.
 void Gather::add_part(const Receiver& at, const scene::SurfacePatch& part, std::uint32_t path, int depth,
@@ -112,7 +112,8 @@ void Gather::cast(const Receiver& at, const Part& part, Index element, int side,
     const std::uint32_t number =
         part.path * static_cast<std::uint32_t>(most_rays_per_side * most_rays_per_side) + static_cast<std::uint32_t>(k);
     const auto u = core::random_block(seed_, static_cast<std::uint32_t>(element), at.key, number);
-    const auto y = onto((k / side + core::uniform_32(u[0])) / side, (k % side + core::uniform_32(u[1])) / side);
+    const int row = k / side, column = k % side;
+    const auto y = onto((row + core::uniform_32(u[0])) / side, (column + core::uniform_32(u[1])) / side);
     const Vec3 d = y.position - at.x;
     const double arrives = at.normal.dot(d), leaves = -normal.dot(d), square = d.squaredNorm();
     if (arrives <= 0.0 || leaves <= 0.0) continue;

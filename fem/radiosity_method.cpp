@@ -185,7 +185,8 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
   core::Moments radiance;
   Spectrum error;
   for (int k = 0; k < side * side; ++k) {
-    const double x = asked.x + (k % side + random.next()) / side, y = asked.y + (k / side + random.next()) / side;
+    const int column = k % side, row = k / side;
+    const double x = asked.x + (column + random.next()) / side, y = asked.y + (row + random.next()) / side;
     const auto hit = rays_.closest({camera.eye, camera.direction(x, y)});
     const auto element = hit ? s_.mesh.locate(*hit) : std::nullopt;
     if (!element) {

@@ -8,7 +8,7 @@ namespace interflect::geometry {
 
 double overlap_area(std::span<const Vec3> a, std::span<const Vec3> b) {
   assert(a.size() + b.size() <= static_cast<std::size_t>(ConvexRing::capacity));
-  const Vec3 normal = vector_area(b), origin = b[0];
+  const Vec3 normal = vector_area(b), &origin = b[0];
   ConvexRing left;
   for (const Vec3& x : a) left.corner[static_cast<std::size_t>(left.corners++)] = x - origin;
   for (std::size_t k = 0; k < b.size() && left.corners > 0; ++k) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "geometry/box.h"
+#include "geometry/convex_blocker.h"
 #include "geometry/polygon.h"
 
 namespace interflect::geometry {
@@ -40,6 +41,13 @@ class Shaft {
   }
   bool may_block(const std::array<Vec3, 3>& triangle) const { return may_block(triangle[0], triangle[1], triangle[2]); }
 
+  /// The same for all of a convex blocker.
+  bool may_block(const ConvexBlocker& blocker) const {
+    for (int k = 0; k < planes_; ++k)
+      if (outside(sides_[static_cast<std::size_t>(k)], blocker.corners())) return false;
+    return std::none_of(blocker.planes().begin(), blocker.planes().end(), [&](const Plane& face) { return hull_in_front(face); });
+  }
+
   /// False only if nothing in the box can lie between the polygons.
   bool may_block(const Box& box) const {
     const Vec3 centre = box.center(), half = 0.5 * box.sizes();
@@ -57,6 +65,15 @@ class Shaft {
     Vec3 normal, absolute;  ///< unit, inwards; and its absolute values
     double offset;          ///< outside: normal . x <= offset
   };
+
+  static bool outside(const Side& side, std::span<const Vec3> corners) {
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& x) { return side.normal.dot(x) <= side.offset; });
+  }
+  bool hull_in_front(const Plane& face) const {
+    for (int k = 0; k < corners_; ++k)
+      if (face.distance(corner_[static_cast<std::size_t>(k)]) < -margin_) return false;
+    return true;
+  }
 
   void add_own_plane(std::span<const Vec3> ring, const Vec3& normal);
   void add_edge_planes(std::span<const Vec3> ring, const Vec3& normal, std::span<const Vec3> other);

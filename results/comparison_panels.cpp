@@ -15,11 +15,12 @@ constexpr int block = 6;  // pixels of a side
 
 /// A picture's means over blocks: its weighted value, or, of a picture of independent standard errors, that of the mean.
 struct Blocks {
-  Blocks(int width, int height) : across((width + block - 1) / block), mean(static_cast<std::size_t>(across * ((height + block - 1) / block))) {}
-  std::size_t of(int x, int y) const { return static_cast<std::size_t>(y / block * across + x / block); }
+  Blocks(int width, int height) : across(number_of(width)), mean(across * number_of(height)) {}
+  static std::size_t number_of(int pixels) { return static_cast<std::size_t>((pixels + block - 1) / block); }
+  std::size_t of(int x, int y) const { return static_cast<std::size_t>(y / block) * across + static_cast<std::size_t>(x / block); }
   double at(int x, int y) const { return mean[of(x, y)]; }
 
-  int across;
+  std::size_t across;
   std::vector<double> mean;
 };
 

@@ -31,9 +31,9 @@ class Record {
   Record& add(std::string key, List value);
   /// Counts, ids and seeds: all integers as they are, whatever their size and sign.
   template <class Integer>
-  requires std::is_integral_v<Integer> Record& add(std::string key, Integer value) {
+  requires std::is_integral_v<Integer> Record& add(const std::string& key, Integer value) {
     using Widest = std::conditional_t<std::is_signed_v<Integer>, std::int64_t, std::uint64_t>;
-    return add_value(std::move(key), static_cast<Widest>(value));
+    return add_value(key, static_cast<Widest>(value));
   }
   /// The first `channels` numbers of a spectrum.
   Record& add(std::string key, const Spectrum& value, int channels);

@@ -9,7 +9,7 @@ namespace interflect::scene {
 Vec3 SurfacePatch::normal() const { return geometry::vector_area(ring()).normalized(); }
 
 Vec3 SurfacePatch::centroid() const {
-  const Vec3 first = (corner[0] + corner[1] + corner[2]) / 3;
+  Vec3 first = (corner[0] + corner[1] + corner[2]) / 3;
   if (corners == 3) return first;
   const Vec3 second = (corner[0] + corner[2] + corner[3]) / 3;
   const double a = (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();

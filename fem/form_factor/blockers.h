@@ -9,20 +9,25 @@
 
 namespace interflect::fem {
 
-/// The scene's facets as what may lie in the way.
+/// The scene's facets, joined to convex polygons and solids, as what may lie in the way.
 class Blockers {
  public:
   /// @param origin  that shafts are relative to [m]
-  Blockers(const scene::Scene& scene, const Vec3& origin);
+  /// @param rounding  of coordinates there [m]
+  Blockers(const scene::Scene& scene, const Vec3& origin, double rounding);
 
-  /// All facets that may reach into the shaft.
+  const geometry::ConvexBlocker& operator[](std::uint32_t k) const { return blockers_[k]; }
+
+  /// All that may reach into the shaft.
   std::vector<std::uint32_t> candidates(const geometry::Shaft& shaft) const;
-  /// False only if no facet reaches into the shaft, by the whole tree or by a list made for a wider shaft.
+  /// The same, appended; `among`, if there is one, is a list made for a wider shaft.
+  void append_candidates(const geometry::Shaft& shaft, const std::vector<std::uint32_t>* among, std::vector<std::uint32_t>& found) const;
+  /// False only if none reaches into the shaft, by the whole tree or by a list made for a wider shaft.
   bool any(const geometry::Shaft& shaft) const;
   bool any(const geometry::Shaft& shaft, const std::vector<std::uint32_t>& among) const;
 
  private:
-  std::vector<std::array<Vec3, 3>> facets_;  ///< relative to the origin
+  std::vector<geometry::ConvexBlocker> blockers_;  ///< relative to the origin
   geometry::BoxTree tree_;
 };
 

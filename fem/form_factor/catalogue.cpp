@@ -1,23 +1,49 @@
 #include "core/error.h"
-#include "core/format.h"
+#include "fem/form_factor/analytic.h"
 #include "fem/form_factor/gauss_lambert.h"
 
 namespace interflect::fem {
+
+namespace {
+
+struct Entry {
+  const char* name;
+  std::unique_ptr<FormFactorMethod> (*make)(const FormFactorContext&);
+};
+
+template <class Method>
+std::unique_ptr<FormFactorMethod> make(const FormFactorContext& context) {
+  return std::make_unique<Method>(context);
+}
+
+constexpr Entry catalogue[] = {{"analytic", make<Analytic>}, {"gauss-lambert", make<GaussLambert>}};
+
+}  // namespace
 
 PairCounts& PairCounts::operator+=(const PairCounts& o) {
   facing_away += o.facing_away;
   clear += o.clear;
   sampled += o.sampled;
   rays += o.rays;
+  subtracted += o.subtracted;
+  points += o.points;
   clamped += o.clamped;
   return *this;
 }
 
 std::unique_ptr<FormFactorMethod> make_form_factor_method(const std::string& name, const FormFactorContext& context) {
-  if (name == "gauss-lambert") return std::make_unique<GaussLambert>(context);
-  throw core::InputError(core::format("form factors by '%s' are unknown: gauss-lambert expected", name.c_str()));
+  std::string known;
+  for (const Entry& entry : catalogue) {
+    if (name == entry.name) return entry.make(context);
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  throw core::InputError("form factors by '" + name + "'", "one of " + known + " expected");
 }
 
-std::vector<std::string> form_factor_names() { return {"gauss-lambert"}; }
+std::vector<std::string> form_factor_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : catalogue) names.emplace_back(entry.name);
+  return names;
+}
 
 }  // namespace interflect::fem

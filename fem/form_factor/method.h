@@ -37,6 +37,8 @@ struct PairCounts {
   std::uint64_t clear = 0;        ///< proved fully visible by a shaft
   std::uint64_t sampled = 0;      ///< visibility by rays
   std::uint64_t rays = 0;
+  std::uint64_t subtracted = 0;  ///< what hides a part was taken out exactly
+  std::uint64_t points = 0;      ///< at which that was done
   std::uint64_t clamped = 0;  ///< entries pulled back into 0 <= K <= min(A_a, A_b)
   PairCounts& operator+=(const PairCounts& o);
 };

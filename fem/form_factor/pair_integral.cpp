@@ -38,12 +38,6 @@ double proximity(const ElementShape& a, const ElementShape& b) {
   return (a.radius + b.radius) / (a.centroid - b.centroid).norm();
 }
 
-/// A clipped element as triangles and quads.
-struct Pieces {
-  std::array<ElementShape, 4> shape;
-  std::size_t count = 0;
-};
-
 Pieces pieces_of(const geometry::ConvexRing& ring, const geometry::Plane& plane) {
   Pieces pieces;
   const auto corners = static_cast<std::size_t>(ring.corners);
@@ -58,6 +52,10 @@ Pieces pieces_of(const geometry::ConvexRing& ring, const geometry::Plane& plane)
 }
 
 }  // namespace
+
+Pieces pieces_in_front(const ElementShape& of, const geometry::Plane& plane) {
+  return pieces_of(geometry::clip(of.ring(), plane), of.plane);
+}
 
 PairIntegral PairIntegrator::operator()(Index i, Index j) const {
   const ElementShape &a = shapes_[i], &b = shapes_[j];
@@ -80,8 +78,7 @@ PairIntegral PairIntegrator::operator()(Index i, Index j) const {
 }
 
 Integral PairIntegrator::clipped_pair(const ElementShape& a, const ElementShape& b) const {
-  const Pieces of_a = pieces_of(geometry::clip(a.ring(), b.plane), a.plane);
-  const Pieces of_b = pieces_of(geometry::clip(b.ring(), a.plane), b.plane);
+  const Pieces of_a = pieces_in_front(a, b.plane), of_b = pieces_in_front(b, a.plane);
   Integral sum;
   for (std::size_t k = 0; k < of_a.count; ++k)
     for (std::size_t l = 0; l < of_b.count; ++l) {

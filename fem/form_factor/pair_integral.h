@@ -18,6 +18,13 @@ struct PairIntegral {
   double error = 0;  ///< estimated bound on its quadrature error [m²]
 };
 
+/// A clipped element as triangles and quads.
+struct Pieces {
+  std::array<ElementShape, 4> shape;
+  std::size_t count = 0;
+};
+Pieces pieces_in_front(const ElementShape& of, const geometry::Plane& plane);
+
 /// Unoccluded form factors of pairs.
 ///
 /// Far pairs take a product rule on both elements, of the lowest order whose error bound is below the tolerance

@@ -48,7 +48,7 @@ TEST(Random, consecutive_dimensions_fill_the_square_evenly) {
   for (int i = 0; i < n; ++i) {
     RandomNumbers numbers(7, 0, static_cast<std::uint64_t>(i));
     const int x = static_cast<int>(numbers.next() * side), y = static_cast<int>(numbers.next() * side);
-    ++cell[static_cast<std::size_t>(y * side + x)];
+    ++cell[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
   }
   double chi2 = 0;
   for (int c : cell) chi2 += (c - 1000.0) * (c - 1000.0) / 1000.0;

@@ -130,7 +130,7 @@ TEST(Occlusion, what_a_shaft_proves_clear_no_ray_finds_blocked) {
   const auto scene = room.finish();
   const auto caster = raycast::make_ray_caster("brute", scene);
   const ElementShapes shapes(room.patches);
-  const Blockers blockers(scene, shapes.origin());
+  const Blockers blockers(scene, shapes.origin(), shapes.plane_tolerance());
   const VisibilitySampler sampler(room.patches, *caster, 1024, 9);
   VisibilitySampler::Workspace workspace;
   int clear = 0, needless = 0;

@@ -163,6 +163,6 @@ TEST(DenseSymmetric, says_in_one_line_how_much_memory_was_missing) {
     FAIL() << "an InputError expected";
   } catch (const core::InputError& error) {
     EXPECT_EQ(core::single_line(error.what()), error.what());
-    EXPECT_NE(std::string(error.what()).find("B"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find('B'), std::string::npos);
   }
 }

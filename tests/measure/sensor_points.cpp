@@ -16,7 +16,7 @@ using scene::SensorGrid;
 
 const double by_en12464 = std::numeric_limits<double>::quiet_NaN();
 
-SensorGrid grid(double width, double depth, std::variant<double, Eigen::Array2i> step, double border = 0) {
+SensorGrid grid(double width, double depth, const std::variant<double, Eigen::Array2i>& step, double border = 0) {
   return {Vec3(1, 2, 0.8), Vec3(width, 0, 0), Vec3(0, depth, 0), step, border};
 }
 

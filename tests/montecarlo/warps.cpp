@@ -47,7 +47,7 @@ TEST(Warps, directions_are_cosine_distributed) {
     const double azimuth = std::atan2(d.y(), d.x()) / (2 * pi) + 0.5;
     const int a = std::min(side - 1, static_cast<int>(d.z() * d.z() * side)),
               b = std::min(side - 1, static_cast<int>(azimuth * side));
-    ++cells[static_cast<std::size_t>(a * side + b)];
+    ++cells[static_cast<std::size_t>(a) * side + static_cast<std::size_t>(b)];
   }
   EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
 }
@@ -79,7 +79,7 @@ TEST(Warps, points_of_a_triangle_are_uniform_by_area) {
     ASSERT_TRUE(in_b >= -1e-14 && in_c >= -1e-14 && s <= 1 + 1e-14);
     const int row = std::min(side - 1, static_cast<int>(s * s * side)),
               column = std::clamp(static_cast<int>(in_c / s * side), 0, side - 1);
-    ++cells[static_cast<std::size_t>(row * side + column)];
+    ++cells[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)];
   }
   EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
 }
@@ -99,7 +99,7 @@ TEST(Warps, points_of_a_quad_are_uniform_by_area) {
     ASSERT_TRUE(p.y() >= 0 && p.y() <= 1 && p.x() >= 0 && p.x() <= width + 1e-14);
     const int row = std::min(side - 1, static_cast<int>(below * side)),
               column = std::min(side - 1, static_cast<int>(p.x() / width * side));
-    ++cells[static_cast<std::size_t>(row * side + column)];
+    ++cells[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)];
   }
   EXPECT_LT(chi2(cells, double(n) / (side * side)), chi2_limit(side * side - 1));
   for (double u : {0.0, almost_one})

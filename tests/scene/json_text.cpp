@@ -12,7 +12,7 @@ using namespace std::string_literals;
 
 std::string said_of(std::string_view text) {
   try {
-    JsonDocument(text, "s.json");
+    const JsonDocument parsed(text, "s.json");
     return "parsed";
   } catch (const core::InputError& error) {
     return error.what();

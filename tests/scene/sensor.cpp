@@ -9,7 +9,7 @@ namespace {
 
 using Counts = std::array<std::int64_t, 2>;
 
-SensorGrid grid(double u, double v, std::variant<double, Eigen::Array2i> step, double border = 0) {
+SensorGrid grid(double u, double v, const std::variant<double, Eigen::Array2i>& step, double border = 0) {
   return {Vec3::Zero(), Vec3(u, 0, 0), Vec3(0, v, 0), step, border};
 }
 

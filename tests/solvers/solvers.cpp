@@ -19,7 +19,7 @@ SolverReport solve(const std::string& name, const System& system, ColumnMatrix& 
                    unsigned threads = 1) {
   core::LocalRun run(1, threads);
   SolverState state{x, 0};
-  const SolverReport report = make_solver(name)->advance(system, state, rule, run);
+  SolverReport report = make_solver(name)->advance(system, state, rule, run);
   EXPECT_EQ(state.step, report.iterations);
   EXPECT_EQ(report.residual_history.size(), static_cast<std::size_t>(report.iterations));
   x = state.x;

@@ -16,7 +16,7 @@ struct Floor {
   Vec3 offset;
 
   explicit Floor(int n, const Vec3& by = Vec3::Zero()) : mesh(elements(n, by)), offset(by) {
-    const Vec3 a = by, b = by + Vec3(2, 0, 0), c = by + Vec3(2, 2, 0), d = by + Vec3(0, 2, 0);
+    const Vec3 &a = by, b = by + Vec3(2, 0, 0), c = by + Vec3(2, 2, 0), d = by + Vec3(0, 2, 0);
     scene.channels = {"grey"};
     scene.materials = {{"paint", Spectrum(0.5), {}, scene::Sides::front}};
     scene.surfaces = {{"floor", {}, 0, 2, {}}};

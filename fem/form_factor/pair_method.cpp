@@ -1,0 +1,82 @@
+#include "fem/form_factor/pair_method.h"
+
+#include <algorithm>
+
+namespace interflect::fem {
+
+/// All pairs of two clusters: what may lie between the clusters is found once, when first asked for.
+class PairMethod::ClusterPair {
+ public:
+  ClusterPair(const PairMethod& method, const ElementCluster& a, const ElementCluster& b) : method_(method), a_(a), b_(b) {}
+
+  void exchange(Index i, Index j, ExchangeSink& sink, Occlusion& occlusion, PairCounts& counts) {
+    const PairIntegral unoccluded = method_.integrate_(i, j);
+    if (unoccluded.facing == Facing::away) {
+      ++counts.facing_away;
+      return;
+    }
+    const ElementShapes& shapes = method_.shapes();
+    const double value = std::clamp(unoccluded.value, 0.0, std::min(shapes[i].area, shapes[j].area));
+    counts.clamped += value != unoccluded.value;
+    const PairIntegral kept{unoccluded.facing, value, unoccluded.error};
+    if (!candidates_) find_candidates();
+    if (planar_ && candidates_->empty()) {
+      ++counts.clear;
+      sink.add(i, j, {value, 0, unoccluded.error});
+      return;
+    }
+    const geometry::Shaft shaft(shapes[i].ring(), shapes[j].ring(), shapes.plane_tolerance());
+    if (planar_ ? !method_.blockers_.any(shaft, *candidates_) : !method_.blockers_.any(shaft)) {
+      ++counts.clear;
+      sink.add(i, j, {value, 0, unoccluded.error});
+      return;
+    }
+    sink.add(i, j, occlusion({i, j, kept, shaft, planar_ ? &*candidates_ : nullptr}, counts));
+  }
+
+ private:
+  static constexpr std::size_t longest_list = 128;  ///< beyond, a pair finds its own through the tree
+
+  void find_candidates() {
+    candidates_.emplace();
+    planar_ = a_.rectangle && b_.rectangle;
+    if (!planar_) return;
+    *candidates_ = method_.blockers_.candidates(geometry::Shaft(*a_.rectangle, *b_.rectangle, method_.shapes().plane_tolerance()));
+    if (candidates_->size() > longest_list) planar_ = false;
+  }
+
+  const PairMethod& method_;
+  const ElementCluster &a_, &b_;
+  bool planar_ = false;
+  std::optional<std::vector<std::uint32_t>> candidates_;
+};
+
+PairMethod::PairMethod(const FormFactorContext& context)
+    : context_(context),
+      integrate_(context.patches, context.tolerance),
+      clusters_(clusters_of(context.patches, integrate_.shapes())),
+      blockers_(context.scene, integrate_.shapes().origin(), integrate_.shapes().plane_tolerance()) {}
+
+PairCounts PairMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
+  PairCounts counts;
+  const std::unique_ptr<Occlusion> work = occlusion();
+  const auto within = [](const ElementBlock& block, const ElementCluster& cluster) {
+    const auto begin = std::lower_bound(cluster.elements.begin(), cluster.elements.end(), block.first);
+    return std::span(begin, std::lower_bound(begin, cluster.elements.end(), block.first + block.count));
+  };
+  for (const ElementCluster& a : clusters_) {
+    const auto of_rows = within(rows, a);
+    if (of_rows.empty()) continue;
+    run.throw_if_stopped("form factors");
+    for (const ElementCluster& b : clusters_) {
+      const auto of_columns = within(columns, b);
+      ClusterPair between(*this, a, b);
+      for (const Index i : of_rows)
+        for (const Index j : of_columns)
+          if (i < j) between.exchange(i, j, sink, *work, counts);
+    }
+  }
+  return counts;
+}
+
+}  // namespace interflect::fem

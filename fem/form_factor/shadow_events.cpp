@@ -1,0 +1,112 @@
+#include "fem/form_factor/shadow_events.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/split.h"
+
+namespace interflect::fem {
+namespace {
+
+using geometry::ConvexBlocker;
+using geometry::HalfSpace;
+
+/// From which corners of a ring a face is seen.
+enum Sight : std::uint8_t { from_none = 0, from_some = 1, from_all = 2 };
+
+Sight sight_of(const geometry::Plane& face, std::span<const Vec3> eyes, double rounding) {
+  std::size_t front = 0;
+  for (const Vec3& eye : eyes) front += face.distance(eye) > rounding;
+  return front == 0 ? from_none : front == eyes.size() ? from_all : from_some;
+}
+
+/// Whether p and q lie strictly on one side of the line through x and y, all in the plane across `normal`.
+double side(const Vec3& x, const Vec3& y, const Vec3& p, const Vec3& normal) { return (y - x).cross(p - x).dot(normal); }
+
+}  // namespace
+
+void ShadowEvents::add(const ConvexBlocker& blocker) {
+  sight_.clear();
+  for (const geometry::Plane& face : blocker.planes()) {
+    sight_.push_back(sight_of(face, outer_, rounding_));
+    if (sight_.back() == from_some) add_face(face);
+  }
+  active_.assign(blocker.corners().size(), 0);
+  for (const ConvexBlocker::Edge& edge : blocker.edges()) {
+    const auto left = sight_[edge.left], right = sight_[edge.right];
+    if (left == right && left != from_some) continue;  // in no outline
+    active_[edge.from] = active_[edge.to] = 1;
+    for (const Vec3& corner : inner_) add_edge(blocker.corners()[edge.from], blocker.corners()[edge.to], corner);
+  }
+  for (std::size_t c = 0; c < active_.size(); ++c)
+    for (std::size_t k = 0; active_[c] && k < inner_.size(); ++k)
+      add_corner(blocker.corners()[c], inner_[k], inner_[k + 1 < inner_.size() ? k + 1 : 0]);
+}
+
+/// Where the plane cuts the outer ring, if it does: not in a corner or along an edge.
+bool ShadowEvents::chord(const HalfSpace& plane, Vec3& from, Vec3& to) {
+  const double margin = plane.normal.norm() * rounding_;
+  double lowest = 0, highest = 0;
+  distance_.clear();
+  for (const Vec3& x : outer_) {
+    distance_.push_back(plane.normal.dot(x) - plane.offset);
+    lowest = std::min(lowest, distance_.back());
+    highest = std::max(highest, distance_.back());
+  }
+  if (lowest >= -margin || highest <= margin) return false;
+  for (std::size_t k = 0; k < outer_.size(); ++k) {
+    const std::size_t next = k + 1 < outer_.size() ? k + 1 : 0;
+    const double d = distance_[k], e = distance_[next];
+    if ((d < 0) == (e < 0)) continue;
+    (d < 0 ? from : to) = outer_[k] + d / (d - e) * (outer_[next] - outer_[k]);
+  }
+  return true;
+}
+
+void ShadowEvents::cut(geometry::RingList& parts) {
+  for (const HalfSpace& plane : planes_) {
+    std::swap(parts, before_);
+    parts.clear();
+    for (std::size_t k = 0; k < before_.size(); ++k) {
+      if (geometry::side_of(before_[k], plane, distance_) != geometry::HalfSide::across) {
+        parts.push_back(before_[k]);
+        continue;
+      }
+      geometry::split(before_[k], distance_, inside_, outside_);
+      for (const std::vector<Vec3>* part : {&inside_, &outside_})
+        if (part->size() >= 3) parts.push_back(*part);
+    }
+  }
+}
+
+void ShadowEvents::add_face(const geometry::Plane& face) {
+  const HalfSpace plane{face.normal, face.offset};
+  Vec3 from, to;
+  if (chord(plane, from, to)) planes_.push_back(plane);
+}
+
+/// Seen from some point of the chord, the corner must lie in line with the edge, between its ends.
+void ShadowEvents::add_edge(const Vec3& a, const Vec3& b, const Vec3& corner) {
+  const Vec3 normal = (b - a).cross(corner - a);
+  const HalfSpace plane{normal, normal.dot(corner)};
+  Vec3 from, to;
+  if (!chord(plane, from, to)) return;
+  const double a_from = side(from, corner, a, normal), b_from = side(from, corner, b, normal), a_to = side(to, corner, a, normal),
+               b_to = side(to, corner, b, normal);
+  const auto [low, high] = std::minmax({a_from, b_from, a_to, b_to});
+  if (low < 0 && high > 0) planes_.push_back(plane);
+}
+
+/// Seen from some point of the chord, the blocker's corner must lie in line with the inner edge, between its ends.
+void ShadowEvents::add_corner(const Vec3& a, const Vec3& v, const Vec3& w) {
+  const Vec3 normal = (w - v).cross(a - v);
+  const HalfSpace plane{normal, normal.dot(a)};
+  Vec3 from, to;
+  if (!chord(plane, from, to)) return;
+  const double v_from = side(from, a, v, normal), w_from = side(from, a, w, normal), v_to = side(to, a, v, normal),
+               w_to = side(to, a, w, normal);
+  const auto [low, high] = std::minmax({v_from, w_from, v_to, w_to});
+  if (low < 0 && high > 0) planes_.push_back(plane);
+}
+
+}  // namespace interflect::fem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/convex_blocker.h"
+#include "geometry/hidden_part.h"
+
+namespace interflect::fem {
+
+/// The planes across which the part of `inner` that convex blockers hide from a point of `outer` changes its form:
+///
+///   through an edge of a blocker and a corner of `inner`,   through a corner of a blocker and an edge of `inner`,
+///   and those of blockers' faces, where the outline jumps from some edges to others
+///
+/// [Heckbert 1992; Lischinski, Tampieri, Greenberg 1992: the events EV and VE of discontinuity meshing].  Between them, and but for the
+/// events of two blockers' edges together (EEE), the hidden form factor is a smooth function of the point.  Only planes that cut
+/// `outer` where the event takes place are given.
+class ShadowEvents {
+ public:
+  /// @param rounding  of coordinates [m]
+  explicit ShadowEvents(double rounding) : rounding_(rounding) {}
+
+  /// A new pair of convex rings, each in front of the other's plane; they stay where they are while events are added.
+  void start(std::span<const Vec3> outer, std::span<const Vec3> inner) { outer_ = outer, inner_ = inner, planes_.clear(); }
+  void add(const geometry::ConvexBlocker& blocker);
+  std::span<const geometry::HalfSpace> planes() const { return planes_; }
+
+  /// Cuts parts of the outer ring along the planes.
+  void cut(geometry::RingList& parts);
+
+ private:
+  void add_face(const geometry::Plane& face);
+  void add_edge(const Vec3& a, const Vec3& b, const Vec3& corner);
+  void add_corner(const Vec3& a, const Vec3& v, const Vec3& w);
+  bool chord(const geometry::HalfSpace& plane, Vec3& from, Vec3& to);
+
+  std::span<const Vec3> outer_, inner_;
+  double rounding_;
+  std::vector<geometry::HalfSpace> planes_;
+  std::vector<double> distance_;
+  std::vector<std::uint8_t> sight_, active_;
+  geometry::RingList before_;
+  std::vector<Vec3> inside_, outside_;
+};
+
+}  // namespace interflect::fem
