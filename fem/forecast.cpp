@@ -52,15 +52,15 @@ class Discard final : public ExchangeSink {
   void add(Index, Index, const ExchangeEntry&) override {}
 };
 
-/// Seconds per pair on one thread: blocks of random rows and columns of the very mesh.
-double seconds_per_pair(const scene::Scene& scene, const RadiositySettings& settings, const mesh::ElementMesh& mesh,
-                        const Run& run) {
-  const auto rays = raycast::make_ray_caster(settings.intersector, scene);
-  const auto method = make_form_factor_method(
-      settings.form_factors,
-      {scene, mesh.patches(), *rays, run.seed, settings.quadrature_tolerance, settings.visibility_rays});
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Random blocks of rows and columns.
+double seconds_per_pair_by_blocks(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
   constexpr Index block = 48, blocks = 24;
-  const Index count = std::min(block, mesh.size()), room = mesh.size() - count + 1;
+  const auto n = static_cast<Index>(patches.size());
+  const Index count = std::min(block, n), room = n - count + 1;
   core::RandomNumbers random(core::derived_seed(run.seed, "forecast"), 0, 0);
   Discard sink;
   double pairs = 0;
@@ -69,10 +69,37 @@ double seconds_per_pair(const scene::Scene& scene, const RadiositySettings& sett
     auto row = static_cast<Index>(random.next() * static_cast<double>(room)),
          column = static_cast<Index>(random.next() * static_cast<double>(room));
     if (row > column) std::swap(row, column);
-    const PairCounts c = method->exchange({mesh.patches(), row, count}, {mesh.patches(), column, count}, sink, run);
-    pairs += static_cast<double>(c.facing_away + c.clear + c.sampled);
+    const PairCounts c = method.exchange({patches, row, count}, {patches, column, count}, sink, run);
+    pairs += static_cast<double>(c.facing_away + c.clear + c.sampled + c.subtracted);
   }
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / std::max(pairs, 1.0);
+  return since(start) / std::max(pairs, 1.0);
+}
+
+/// A few random rows: each is worth half as many pairs as it has entries.
+double seconds_per_pair_by_rows(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
+  constexpr int rows = 8;
+  const auto n = static_cast<Index>(patches.size());
+  core::RandomNumbers random(core::derived_seed(run.seed, "forecast"), 0, 0);
+  Discard sink;
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < rows; ++k) {
+    const auto row = static_cast<Index>(random.next() * static_cast<double>(n));
+    method.exchange({patches, row, 1}, {patches, 0, n}, sink, run);
+  }
+  return since(start) / (0.5 * rows * static_cast<double>(n));
+}
+
+/// Seconds per pair on one thread, by parts of the very mesh.
+double seconds_per_pair(const scene::Scene& scene, const RadiositySettings& settings, const mesh::ElementMesh& mesh,
+                        const Run& run) {
+  const auto rays = raycast::make_ray_caster(settings.intersector, scene);
+  const auto method = make_form_factor_method(
+      settings.form_factors,
+      {scene, mesh.patches(), *rays, run.seed, settings.quadrature_tolerance, settings.visibility_rays});
+  using Granularity = FormFactorMethod::Granularity;
+  if (method->granularity() == Granularity::pair) return seconds_per_pair_by_blocks(*method, mesh.patches(), run);
+  if (method->granularity() == Granularity::row) return seconds_per_pair_by_rows(*method, mesh.patches(), run);
+  return method->trial(run) / (0.5 * static_cast<double>(mesh.size()) * static_cast<double>(mesh.size()));
 }
 
 }  // namespace

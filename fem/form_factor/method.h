@@ -46,14 +46,22 @@ struct PairCounts {
 /// A way to compute form factors, picked by name.
 class FormFactorMethod {
  public:
-  enum class Granularity : std::uint8_t { pair, row, all };
+  /// What the method computes at a time, and so what `exchange` may be asked for.
+  enum class Granularity : std::uint8_t {
+    pair,  ///< any block: every pair (a in rows, b in columns) with a < b once
+    row,   ///< all columns: every b != a, for a in rows, as seen from a; K_ab and K_ba are two views of one number
+    all    ///< everything in one call, every pair a < b once
+  };
   virtual ~FormFactorMethod() = default;
   virtual std::string name() const = 0;
   virtual Granularity granularity() const = 0;
   virtual int highest_order() const { return 0; }  ///< of the basis: 0 for constants only
-  /// Every pair (a in rows, b in columns) with a < b once; reentrant.  Same numbers whatever the blocks.
+  /// Adds entries to the sink, as the granularity says; entries that are not added are 0, exactly.  Reentrant, but for `all`, which uses the
+  /// run's threads itself.  Same numbers whatever the blocks and the threads.
   virtual PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
                               const Run& run) const = 0;
+  /// Seconds on one thread for everything, by a short trial: only of a method that cannot be asked for a part.
+  virtual double trial(const Run&) const { return 0; }
 };
 
 /// What a method is made for; all of it outlives the method.
@@ -64,6 +72,8 @@ struct FormFactorContext {
   std::uint64_t seed = 1;
   double tolerance = 1e-3;   ///< relative, of the quadrature of one entry
   int visibility_rays = 16;  ///< per pair that is neither clear nor dark; at least 4
+  int resolution = 256;      ///< cells across the top of a hemicube, or across a plane
+  std::uint64_t samples = 0; ///< of a Monte Carlo method: a pair, a row, or in all; 0: as many as the tolerance asks for
 };
 
 /// @throws core::InputError with the names known
