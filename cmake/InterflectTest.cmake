@@ -20,6 +20,10 @@ function(interflect_test name)
   set(environment)
   if(ARG_DRAWS AND INTERFLECT_SANITIZE MATCHES address)
     set(environment ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
+  elseif(INTERFLECT_SANITIZE MATCHES thread)
+    # Too much memory is refused in one line: an allocation that fails is for the program to tell.
+    set(environment ENVIRONMENT
+      TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.supp:allocator_may_return_null=1)
   endif()
   gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX ${name}/
     PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} ${environment})

@@ -1,5 +1,7 @@
 #include "fem/form_factor/far_field.h"
 
+#include <cmath>
+
 namespace interflect::fem {
 
 namespace {
@@ -28,7 +30,23 @@ void weigh(const NodeArrays& nodes, const geometry::Plane& other, double* out) {
     out[k] = nodes.weight[k] * (nx * nodes.x[k] + ny * nodes.y[k] + nz * nodes.z[k] - offset);
 }
 
-constexpr double envelope[ElementShapes::levels] = {2.2, 1.1, 0.46, 0.15};
+/// c, m, f, p of the estimate for one level.
+struct Fit {
+  double scale;
+  int gain;
+  double floor;
+  int power;
+};
+constexpr Fit fits[2][ElementShapes::levels] = {{{}, {0.60, 2, 0.32, 4}, {0.38, 2, 0.10, 6}, {0.55, 2, 0.010, 8}},
+                                                {{}, {0.066, 3, 0.18, 5}, {0.19, 2, 0.0032, 7}, {1.6, 1, 0.00018, 8}}};
+
+const Fit& fit_of(FarPair pair, int level) { return fits[pair == FarPair::of_triangles][level]; }
+
+double power(double q, int exponent) {
+  double product = 1;
+  for (int k = 0; k < exponent; ++k) product *= q;
+  return product;
+}
 
 }  // namespace
 
@@ -49,16 +67,16 @@ double far_field(const NodeArrays& a, const geometry::Plane& plane_a, const Node
   }
 }
 
-double far_field_error(int level, double q, double slope) {
-  double power = q;
-  for (int k = 0; k < level; ++k) power *= q * q;
-  return envelope[level] * power * (q + slope);
+double far_field_error(int level, FarPair pair, double q, double difference, double K) {
+  const Fit& fit = fit_of(pair, level);
+  return fit.scale * (power(q, fit.gain) * std::abs(difference) + fit.floor * power(q, fit.power) * K);
 }
 
-int far_field_level(double q, double slope, double tolerance) {
-  int level = 0;
-  while (level < ElementShapes::levels && !(far_field_error(level, q, slope) <= tolerance)) ++level;
-  return level;
+int far_field_level(FarPair pair, double q, double tolerance) {
+  if (!(q < 0.7)) return ElementShapes::levels;
+  for (int level = 1; level < ElementShapes::levels; ++level)
+    if (const Fit& fit = fit_of(pair, level); fit.scale * fit.floor * power(q, fit.power) <= tolerance) return level;
+  return ElementShapes::levels;
 }
 
 }  // namespace interflect::fem

@@ -26,8 +26,6 @@ Heights heights(const ElementShapes& shapes, const ElementShape& of, const Eleme
   return {lowest, highest, shapes.height_tolerance(over, of.centroid)};
 }
 
-double slope(const Heights& h) { return (h.highest - h.lowest) / (h.highest + std::max(h.lowest, 0.0)); }
-
 Integral near_field(const ElementShape& a, const ElementShape& b, double tolerance) {
   const bool a_is_outer = a.radius <= b.radius;
   const ElementShape &outer = a_is_outer ? a : b, &inner = a_is_outer ? b : a;
@@ -67,14 +65,26 @@ PairIntegral PairIntegrator::operator()(Index i, Index j) const {
     const Integral part = clipped_pair(a, b);
     return {part.value > 0.0 ? Facing::crossing : Facing::away, part.value, part.error};
   }
-  const double q = proximity(a, b), variation = std::max(slope(of_a), slope(of_b));
-  const int level = far_field_level(q, variation, tolerance_);
-  if (level == ElementShapes::levels) {
-    const Integral near = near_field(a, b, tolerance_);
-    return {Facing::full, near.value, near.error};
+  const Integral whole = unclipped(a, b, [&](int level) {
+    return far_field(shapes_.nodes(i, level), a.plane, shapes_.nodes(j, level), b.plane);
+  });
+  return {Facing::full, whole.value, whole.error};
+}
+
+/// The far field where it will do, from the level that promises to, and else the near field.
+template <class FarField>
+Integral PairIntegrator::unclipped(const ElementShape& a, const ElementShape& b, const FarField& far) const {
+  const double q = proximity(a, b);
+  const FarPair pair = a.corners == 3 && b.corners == 3 ? FarPair::of_triangles : FarPair::with_quads;
+  int level = far_field_level(pair, q, tolerance_);
+  if (level == ElementShapes::levels) return near_field(a, b, tolerance_);
+  double before = far(level - 1);
+  for (; level < ElementShapes::levels; ++level) {
+    const double value = std::max(0.0, far(level)), error = far_field_error(level, pair, q, value - before, value);
+    if (error <= tolerance_ * value) return {value, error};
+    before = value;
   }
-  const double value = far_field(shapes_.nodes(i, level), a.plane, shapes_.nodes(j, level), b.plane);
-  return {Facing::full, value, value * far_field_error(level, q, variation)};
+  return near_field(a, b, tolerance_);
 }
 
 Integral PairIntegrator::clipped_pair(const ElementShape& a, const ElementShape& b) const {
@@ -83,16 +93,10 @@ Integral PairIntegrator::clipped_pair(const ElementShape& a, const ElementShape&
   for (std::size_t k = 0; k < of_a.count; ++k)
     for (std::size_t l = 0; l < of_b.count; ++l) {
       const ElementShape &p = of_a.shape[k], &q = of_b.shape[l];
-      const double ratio = proximity(p, q), variation = 1.0;  // one of them touches the other's plane
-      const int level = far_field_level(ratio, variation, tolerance_);
-      Integral part;
-      if (level == ElementShapes::levels) {
-        part = near_field(p, q, tolerance_);
-      } else {
+      const Integral part = unclipped(p, q, [&](int level) {
         const NodeBuffer nodes_p(p, shapes_.rules(level)), nodes_q(q, shapes_.rules(level));
-        part.value = std::max(0.0, far_field(nodes_p.arrays(), p.plane, nodes_q.arrays(), q.plane));
-        part.error = part.value * far_field_error(level, ratio, variation);
-      }
+        return far_field(nodes_p.arrays(), p.plane, nodes_q.arrays(), q.plane);
+      });
       sum.value += part.value;
       sum.error += part.error;
     }

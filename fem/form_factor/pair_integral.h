@@ -27,7 +27,7 @@ Pieces pieces_in_front(const ElementShape& of, const geometry::Plane& plane);
 
 /// Unoccluded form factors of pairs.
 ///
-/// Far pairs take a product rule on both elements, of the lowest order whose error bound is below the tolerance
+/// Far pairs take a product rule on both elements, of the lowest order whose estimated error is below the tolerance
 /// (far_field.h); near and touching ones Lambert's formula on one and adaptive Gauss quadrature on the other
 /// (adaptive_lambert.h).  The outer element is the smaller one: the integrand over it varies on the scale of the distance,
 /// which is the same for both choices, and so it is the smoother the smaller the outer element is.
@@ -40,6 +40,8 @@ class PairIntegrator {
   const ElementShapes& shapes() const { return shapes_; }
 
  private:
+  template <class FarField>
+  Integral unclipped(const ElementShape& a, const ElementShape& b, const FarField& far) const;
   Integral clipped_pair(const ElementShape& a, const ElementShape& b) const;
 
   ElementShapes shapes_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/random.h"
@@ -27,41 +29,54 @@ class RandomPairs {
   core::RandomNumbers random_{11, 0, 0};
 };
 
-/// (max - min) / (max + min) of the heights over a plane; nothing where one is below.
-std::optional<double> variation(const ElementShape& shape, const geometry::Plane& plane) {
-  double low = plane.distance(shape.corner[0]), high = low;
-  for (const Vec3& p : shape.ring()) low = std::min(low, plane.distance(p)), high = std::max(high, plane.distance(p));
-  if (low < 0) return std::nullopt;
-  return (high - low) / (high + low);
+bool in_front(const ElementShape& shape, const geometry::Plane& plane) {
+  const auto ring = shape.ring();
+  return std::all_of(ring.begin(), ring.end(), [&](const Vec3& p) { return plane.distance(p) >= 0; });
 }
 
-// 2 000 pairs of triangles and quads whose sizes differ by up to ten, at all distances down to touching balls.
-TEST(FarField, errors_stay_below_their_bounds) {
+// 2 000 pairs of triangles and quads whose sizes differ by up to ten, at all distances down to touching balls: with a probability of
+// 99 % each, at most 1 % + 4 sigma are worse than stated, and the median is not far below.
+TEST(FarField, errors_are_below_what_is_stated_in_99_percent_and_not_far_below) {
   RandomPairs random;
-  for (int found = 0; found < 2000;) {
+  constexpr int pairs = 2000;
+  std::array<int, ElementShapes::levels> worse{};
+  std::array<std::vector<double>, ElementShapes::levels> ratios;
+  for (int found = 0; found < pairs;) {
     auto a = random.patch(1), b = random.patch(std::pow(10.0, 2 * random.next() - 1));
     const Vec3 offset = std::pow(30.0, random.next()) * (.5 + .5 * std::sqrt(b.area)) * random.direction();
     for (Vec3& p : b.corner) p += offset;
     const std::vector patches = {a, b};
     const ElementShapes shapes(patches);
     const double q = (shapes[0].radius + shapes[1].radius) / (shapes[0].centroid - shapes[1].centroid).norm();
-    const auto of_a = variation(shapes[0], shapes[1].plane), of_b = variation(shapes[1], shapes[0].plane);
-    if (!of_a || !of_b || q > .95) continue;
+    if (!in_front(shapes[0], shapes[1].plane) || !in_front(shapes[1], shapes[0].plane) || q > .7) continue;
     ++found;
-    const double exact = adaptive_lambert(shapes[0].ring(), shapes[0].plane.normal, shapes[1].ring(), 1e-9).value;
-    for (int level = 0; level < ElementShapes::levels; ++level) {
-      const double K = far_field(shapes.nodes(0, level), shapes[0].plane, shapes.nodes(1, level), shapes[1].plane);
-      EXPECT_LE(std::abs(K / exact - 1), far_field_error(level, q, std::max(*of_a, *of_b)) + 1e-8) << level << " " << q;
+    const FarPair pair = a.corners + b.corners == 6 ? FarPair::of_triangles : FarPair::with_quads;
+    const double exact = adaptive_lambert(shapes[0].ring(), shapes[0].plane.normal, shapes[1].ring(), 1e-12).value;
+    const auto K = [&](int level) {
+      return far_field(shapes.nodes(0, level), shapes[0].plane, shapes.nodes(1, level), shapes[1].plane);
+    };
+    for (int level = 1; level < ElementShapes::levels; ++level) {
+      const double error = std::abs(K(level) - exact), stated = far_field_error(level, pair, q, K(level) - K(level - 1), K(level));
+      if (error < 1e-11 * exact) continue;  // rounding, and that of the reference
+      worse[static_cast<std::size_t>(level)] += error > stated;
+      ratios[static_cast<std::size_t>(level)].push_back(stated / error);
     }
+  }
+  for (std::size_t level = 1; level < ElementShapes::levels; ++level) {
+    std::vector<double>& r = ratios[level];
+    ASSERT_GT(r.size(), 500u);
+    EXPECT_LE(worse[level], 0.01 * static_cast<double>(r.size()) + 4 * std::sqrt(0.01 * static_cast<double>(r.size()))) << level;
+    std::nth_element(r.begin(), r.begin() + static_cast<Index>(r.size() / 2), r.end());
+    EXPECT_LT(r[r.size() / 2], 30) << level;  // pairs of a triangle and a quad state what quads would
   }
 }
 
-TEST(FarField, levels_are_the_cheapest_that_will_do) {
-  EXPECT_EQ(far_field_level(1e-4, 0, 1e-3), 0);
-  EXPECT_EQ(far_field_level(.1, .1, 1e-3), 1);
-  EXPECT_EQ(far_field_level(.3, .3, 1e-3), 2);
-  EXPECT_EQ(far_field_level(.9, 1, 1e-3), ElementShapes::levels);
-  EXPECT_EQ(far_field_level(std::nan(""), 1, 1e-3), ElementShapes::levels);
+TEST(FarField, levels_start_where_they_may_do) {
+  EXPECT_EQ(far_field_level(FarPair::with_quads, 1e-4, 1e-3), 1);
+  EXPECT_EQ(far_field_level(FarPair::with_quads, .3, 1e-3), 2);
+  EXPECT_EQ(far_field_level(FarPair::of_triangles, .3, 1e-3), 1);
+  EXPECT_EQ(far_field_level(FarPair::with_quads, .9, 1e-3), ElementShapes::levels);
+  EXPECT_EQ(far_field_level(FarPair::with_quads, std::nan(""), 1e-3), ElementShapes::levels);
 }
 
 }  // namespace

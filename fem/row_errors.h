@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fem/form_factor/method.h"
+
+namespace interflect::fem {
+
+/// Sums of the errors of form factors, row by row, of what passes through to another sink:
+///
+///   e_a = sum_b (bound_ab + 1.96 standard_error_ab) / A_a     a bound on sum_b |dF_ab|: guaranteed nowhere, 95 % an entry where sampled
+///
+/// Sums are integers, in units of 2^-52, every entry rounded up: the same for any number of threads.
+class RowErrors final : public ExchangeSink {
+ public:
+  RowErrors(ExchangeSink& sink, std::span<const double> areas);
+
+  void add(Index a, Index b, const ExchangeEntry& entry) override;
+
+  double of(Index a) const;
+  std::vector<double> all() const;
+  /// From now on only these rows count, from 0: what others are known for stays.
+  void count_afresh(std::span<const Index> rows);
+
+ private:
+  void count(Index a, double error);
+
+  ExchangeSink& sink_;
+  std::span<const double> areas_;
+  std::vector<std::atomic<std::uint64_t>> sum_;
+  std::vector<std::uint8_t> counts_;  ///< rows that count
+};
+
+struct ToleranceReport {
+  PairCounts pairs;
+  std::vector<double> row_errors;  ///< e_a
+  int passes = 0;                  ///< of the method: one, and one for each time that rows had to be done again
+  bool met = false;                ///< max_a e_a <= tolerance
+};
+
+/// All entries with max_a e_a <= tolerance.
+///
+/// Entries are first computed to a relative tolerance that makes rows meet it (sum_b F_ab <= 1).  Rows that do not, because some of their
+/// entries' errors came out larger than asked for, are done again to a quarter, and so on; what they have in common with others counts
+/// there as before, which is cautious.  Only pair methods can be asked for rows again; of others the report says what came out.
+/// @param make  the method to a relative tolerance
+/// @throws core::Interrupted
+ToleranceReport assemble_to_tolerance(const std::function<std::unique_ptr<FormFactorMethod>(double)>& make, double tolerance,
+                                      std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run);
+
+}  // namespace interflect::fem
