@@ -87,13 +87,15 @@ void RowErrors::count_afresh(std::span<const Index> rows) {
   }
 }
 
+double entry_tolerance(double of_rows) { return std::min(0.1, 4 * of_rows); }
+
 ToleranceReport assemble_to_tolerance(const std::function<std::unique_ptr<FormFactorMethod>(double)>& make, double tolerance,
                                       std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
   const std::vector<double> areas = areas_of(patches);
   const auto n = static_cast<Index>(patches.size());
   RowErrors errors(sink, areas);
   ToleranceReport report;
-  double relative = tolerance;
+  double relative = entry_tolerance(tolerance);
   std::unique_ptr<FormFactorMethod> method = make(relative);
   report.pairs = assemble(*method, patches, errors, run);
   report.passes = 1;

@@ -35,6 +35,10 @@ class RowErrors final : public ExchangeSink {
   std::vector<std::uint8_t> counts_;  ///< rows that count
 };
 
+/// The relative tolerance of entries with which rows mostly meet theirs: errors come out far smaller than what entries may have, and many
+/// entries have none.
+double entry_tolerance(double of_rows);
+
 struct ToleranceReport {
   PairCounts pairs;
   std::vector<double> row_errors;  ///< e_a

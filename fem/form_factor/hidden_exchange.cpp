@@ -34,11 +34,10 @@ double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 }
 
 /// From the outer element to what shapes the shadows on it: the blockers' edges and the inner element [m].
-double distance_of(const ElementShape& outer, const ElementShape& inner, Blockers blockers) {
+double distance_of(const ElementShape& outer, const ElementShape& inner, std::span<const PairShadow> shadows) {
   double distance = (outer.centroid - inner.centroid).norm() - inner.radius;
-  for (const ConvexBlocker* blocker : blockers)
-    for (const ConvexBlocker::Edge& edge : blocker->edges())
-      distance = std::min(distance, distance_to_segment(outer.centroid, blocker->corners()[edge.from], blocker->corners()[edge.to]));
+  for (const PairShadow& shadow : shadows)
+    for (const PairShadow::Edge& edge : shadow.edges()) distance = std::min(distance, distance_to_segment(outer.centroid, edge.from, edge.to));
   return distance;
 }
 
@@ -53,15 +52,15 @@ double radius_of(std::span<const Vec3> ring) {
 /// One pair's integration over cells.
 class HiddenExchange::Pair {
  public:
-  Pair(HiddenExchange& work, const ElementShape& outer, const ElementShape& inner, Blockers blockers)
-      : work_(work), outer_(outer), inner_(inner), blockers_(blockers), distance_(distance_of(outer, inner, blockers)) {
+  Pair(HiddenExchange& work, const ElementShape& outer, const ElementShape& inner)
+      : work_(work), outer_(outer), inner_(inner), distance_(distance_of(outer, inner, shadows())) {
     work_.cells_.clear();
   }
 
   /// Cuts a triangle or quad of the outer element into cells between the lines of the events.
   void cover(std::span<const Vec3> ring, int depth) {
     work_.events_.start(ring, inner_.ring());
-    for (const ConvexBlocker* blocker : blockers_) work_.events_.add(*blocker);
+    for (const PairShadow& shadow : shadows()) work_.events_.add(shadow);
     if (work_.events_.planes().size() > most_events) {
       if (depth == deepest) return give_up(ring);
       for (const auto& part : scene::quarters_of(ring)) cover({part.data(), ring.size()}, depth + 1);
@@ -96,6 +95,8 @@ class HiddenExchange::Pair {
   }
 
  private:
+  std::span<const PairShadow> shadows() const { return {work_.shadows_.data(), work_.shadow_count_}; }
+
   /// A convex part between the lines, as quads and at most one triangle.
   void add(std::span<const Vec3> ring) {
     for (std::size_t first = 1; first + 1 < ring.size(); first += 2) {
@@ -124,13 +125,13 @@ class HiddenExchange::Pair {
     const Vec3 eye = point_on(cell.ring(), centre.u, centre.v);
     cell.hides = Hides::none;
     int parts = 0;
-    for (const ConvexBlocker* blocker : blockers_) {
+    for (std::size_t k = 0; k < shadows().size(); ++k) {
       work_.look(eye, inner_);
-      work_.hide(eye, *blocker);
+      work_.hide(eye, shadows()[k]);
       if (work_.part_.hidden().size() == 0) continue;
       cell.hides = work_.part_.seen().size() == 0 ? Hides::all : Hides::part;
       if (cell.hides == Hides::all) return;
-      cell.only = ++parts == 1 ? blocker : nullptr;
+      cell.only = ++parts == 1 ? static_cast<int>(k) : -1;
     }
   }
   void push(const Cell& cell) {
@@ -148,7 +149,7 @@ class HiddenExchange::Pair {
   }
   /// Of the cell to the distance over which its integrand varies; 1 where that has kinks.
   double ratio(const Cell& cell) const {
-    if (cell.hides == Hides::part && !cell.only) return 1;
+    if (cell.hides == Hides::part && cell.only < 0) return 1;
     const double radius = radius_of(cell.ring());
     return radius < distance_ ? radius / distance_ : 1;
   }
@@ -163,24 +164,25 @@ class HiddenExchange::Pair {
     const Vec3& normal = outer_.plane.normal;
     if (cell.hides == Hides::all) return point_to_polygon_above_horizon(eye, normal, inner_.ring());
     work_.look(eye, inner_);
-    if (cell.only) {
-      work_.hide(eye, *cell.only);
+    if (cell.only >= 0) {
+      work_.hide(eye, shadows()[static_cast<std::size_t>(cell.only)]);
     } else {
-      for (const ConvexBlocker* blocker : blockers_) work_.hide(eye, *blocker);
+      for (const PairShadow& shadow : shadows()) work_.hide(eye, shadow);
     }
     return work_.factor_of_hidden(normal);
   }
 
   HiddenExchange& work_;
   const ElementShape &outer_, &inner_;
-  Blockers blockers_;
   double distance_;
   double value_ = 0, error_ = 0;
   Integral given_up_;  ///< parts with too many events
 };
 
 Integral HiddenExchange::operator()(const ElementShape& outer, const ElementShape& inner, Blockers blockers, double tolerance) {
-  Pair pair(*this, outer, inner, blockers);
+  prepare(outer.ring(), inner.ring(), blockers);
+  if (shadow_count_ == 0) return {};
+  Pair pair(*this, outer, inner);
   pair.cover(outer.ring(), 0);
   pair.refine(tolerance);
   return pair.result();
@@ -192,11 +194,26 @@ double HiddenExchange::hidden_factor(const Vec3& x, const Vec3& normal, const El
   return factor_of_hidden(normal);
 }
 
+/// What each blocker is to the pair; those that hide nothing drop out.
+void HiddenExchange::prepare(std::span<const Vec3> outer, std::span<const Vec3> inner, Blockers blockers) {
+  shadow_count_ = 0;
+  if (shadows_.size() < blockers.size()) shadows_.resize(blockers.size());
+  for (const ConvexBlocker* blocker : blockers) shadow_count_ += shadows_[shadow_count_].prepare(*blocker, outer, inner, rounding_);
+}
+
 void HiddenExchange::look(const Vec3& eye, const ElementShape& inner) {
   ++points_;
   relative_.clear();
   for (const Vec3& corner : inner.ring()) relative_.push_back(corner - eye);
   part_.start(relative_);
+}
+
+void HiddenExchange::hide(const Vec3& eye, const PairShadow& shadow) {
+  if (shadow.touches_eyes()) return hide(eye, shadow.blocker());
+  if (part_.seen().size() == 0) return;
+  shadow_.clear();
+  shadow.append(eye, shadow_);
+  part_.hide(shadow_);
 }
 
 void HiddenExchange::hide(const Vec3& eye, const ConvexBlocker& blocker) {

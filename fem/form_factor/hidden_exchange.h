@@ -48,7 +48,7 @@ class HiddenExchange {
     std::array<Vec3, 4> corner;
     std::size_t corners;
     Hides hides = Hides::none;
-    const geometry::ConvexBlocker* only = nullptr;  ///< that hides a part; none where several do
+    int only = -1;  ///< the one of the shadows that hides a part; none where several do
     int rung = 0;
     double value = 0, error = 0;
     std::span<const Vec3> ring() const { return {corner.data(), corners}; }
@@ -56,7 +56,9 @@ class HiddenExchange {
   };
   class Pair;
 
+  void prepare(std::span<const Vec3> outer, std::span<const Vec3> inner, std::span<const geometry::ConvexBlocker* const> blockers);
   void look(const Vec3& eye, const ElementShape& inner);
+  void hide(const Vec3& eye, const PairShadow& shadow);
   void hide(const Vec3& eye, const geometry::ConvexBlocker& blocker);
   double factor_of_hidden(const Vec3& normal) const;
 
@@ -64,6 +66,8 @@ class HiddenExchange {
   double rounding_;
   std::uint64_t points_ = 0;
   geometry::HiddenPart part_;
+  std::vector<PairShadow> shadows_;  ///< the first `shadow_count_` are in use
+  std::size_t shadow_count_ = 0;
   std::vector<geometry::HalfSpace> shadow_;
   std::vector<Vec3> relative_;
   geometry::RingList rings_;

@@ -8,39 +8,26 @@
 namespace interflect::fem {
 namespace {
 
-using geometry::ConvexBlocker;
 using geometry::HalfSpace;
 
-/// From which corners of a ring a face is seen.
-enum Sight : std::uint8_t { from_none = 0, from_some = 1, from_all = 2 };
-
-Sight sight_of(const geometry::Plane& face, std::span<const Vec3> eyes, double rounding) {
-  std::size_t front = 0;
-  for (const Vec3& eye : eyes) front += face.distance(eye) > rounding;
-  return front == 0 ? from_none : front == eyes.size() ? from_all : from_some;
-}
-
-/// Whether p and q lie strictly on one side of the line through x and y, all in the plane across `normal`.
+/// On which side of the line through x and y p lies, all in the plane across `normal`.
 double side(const Vec3& x, const Vec3& y, const Vec3& p, const Vec3& normal) { return (y - x).cross(p - x).dot(normal); }
 
 }  // namespace
 
-void ShadowEvents::add(const ConvexBlocker& blocker) {
-  sight_.clear();
-  for (const geometry::Plane& face : blocker.planes()) {
-    sight_.push_back(sight_of(face, outer_, rounding_));
-    if (sight_.back() == from_some) add_face(face);
+void ShadowEvents::add(const PairShadow& shadow) {
+  for (const geometry::Plane& face : shadow.turning()) add_face(face);
+  corners_.clear();
+  const auto add_once = [&](const Vec3& corner) {
+    if (std::find(corners_.begin(), corners_.end(), corner) == corners_.end()) corners_.push_back(corner);
+  };
+  for (const PairShadow::Edge& edge : shadow.edges()) {
+    add_once(edge.from);
+    add_once(edge.to);
+    for (const Vec3& corner : inner_) add_edge(edge.from, edge.to, corner);
   }
-  active_.assign(blocker.corners().size(), 0);
-  for (const ConvexBlocker::Edge& edge : blocker.edges()) {
-    const auto left = sight_[edge.left], right = sight_[edge.right];
-    if (left == right && left != from_some) continue;  // in no outline
-    active_[edge.from] = active_[edge.to] = 1;
-    for (const Vec3& corner : inner_) add_edge(blocker.corners()[edge.from], blocker.corners()[edge.to], corner);
-  }
-  for (std::size_t c = 0; c < active_.size(); ++c)
-    for (std::size_t k = 0; active_[c] && k < inner_.size(); ++k)
-      add_corner(blocker.corners()[c], inner_[k], inner_[k + 1 < inner_.size() ? k + 1 : 0]);
+  for (const Vec3& corner : corners_)
+    for (std::size_t k = 0; k < inner_.size(); ++k) add_corner(corner, inner_[k], inner_[k + 1 < inner_.size() ? k + 1 : 0]);
 }
 
 /// Where the plane cuts the outer ring, if it does: not in a corner or along an edge.

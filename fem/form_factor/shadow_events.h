@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/convex_blocker.h"
+#include "fem/form_factor/pair_shadow.h"
 #include "geometry/hidden_part.h"
 
 namespace interflect::fem {
@@ -23,7 +23,7 @@ class ShadowEvents {
 
   /// A new pair of convex rings, each in front of the other's plane; they stay where they are while events are added.
   void start(std::span<const Vec3> outer, std::span<const Vec3> inner) { outer_ = outer, inner_ = inner, planes_.clear(); }
-  void add(const geometry::ConvexBlocker& blocker);
+  void add(const PairShadow& shadow);
   std::span<const geometry::HalfSpace> planes() const { return planes_; }
 
   /// Cuts parts of the outer ring along the planes.
@@ -39,7 +39,7 @@ class ShadowEvents {
   double rounding_;
   std::vector<geometry::HalfSpace> planes_;
   std::vector<double> distance_;
-  std::vector<std::uint8_t> sight_, active_;
+  std::vector<Vec3> corners_;
   geometry::RingList before_;
   std::vector<Vec3> inside_, outside_;
 };

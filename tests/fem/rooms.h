@@ -87,6 +87,14 @@ class MatrixSink final : public ExchangeSink {
   Eigen::MatrixXd K, error;  ///< error: of sampling and quadrature
 };
 
+/// Entries as they came last.
+class LastEntrySink final : public ExchangeSink {
+ public:
+  explicit LastEntrySink(std::size_t n) : K(Eigen::MatrixXd::Zero(Index(n), Index(n))) {}
+  void add(Index a, Index b, const ExchangeEntry& entry) override { K(a, b) = K(b, a) = entry.K; }
+  Eigen::MatrixXd K;
+};
+
 /// All pairs by "gauss-lambert".
 struct Assembled {
   Eigen::MatrixXd K, error;
