@@ -108,6 +108,7 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
       ->default_str(core::format_bytes(s.max_memory));
   command.add_option("--form-factors", s.form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
+  command.add_option("--factors", options.factors, "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
   command.add_option("--visibility-rays", s.visibility_rays, "Rays for a pair of elements that something may hide")
       ->check(CLI::Range(4, 65536))->capture_default_str();
   command.add_option("--quadrature-tolerance", s.quadrature_tolerance, "Relative error of an unoccluded form factor")
@@ -180,6 +181,29 @@ void add_trace(CLI::App& app, Command& chosen) {
       ->capture_default_str();
 }
 
+void add_view_factors(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<ViewFactorOptions>();
+  CLI::App* command = add_command<ViewFactorOptions>(
+      app, "view-factors", "View factors of a mesh or scene, with an error on each", "interflect view-factors room.stl --units mm -o F.h5",
+      view_factors, options, chosen);
+  command->add_option("FILE", options->input, "OBJ, PLY, STL, glTF, VTU, VTP, View3D's .vs3, or a scene (.json)")->required();
+  command->add_option("-o,--out", options->out, "F.h5, F.npz, F.mtx or F.csv; the others are made from an .h5 beside them")->required();
+  command->add_option("--tolerance", options->tolerance, "Largest sum of a row's errors")->check(CLI::Range(1e-9, 0.5))->capture_default_str();
+  command->add_option("--form-factors", options->form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
+      ->capture_default_str();
+  command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: one element a face")->check(Length());
+  command->add_option("--units", options->geometry.unit, "Of the file's coordinates: m, cm, mm, ft, in");
+  command->add_flag("--two-sided", options->geometry.two_sided, "Backs of faces have view factors too: thin plates");
+  command->add_flag("--whole-groups", options->geometry.whole_groups, "One surface for each group and material of a mesh, not for each face");
+  command->add_option("--only-occlude", options->geometry.only_occlude, "Surfaces or groups that hide, and have no view factors");
+  command->add_option("--leave-out", options->geometry.left_out, "Surfaces or groups that neither see nor hide");
+  command->add_option("--groups", options->groups, "Sum the factors of a .csv by this")->check(CLI::IsMember({"surface", "group", "material"}));
+  command->add_option("--samples", options->samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
+      ->capture_default_str();
+  command->add_option("--resolution", options->resolution, "Cells across a hemicube or a plane")->check(CLI::Range(2, 8192))
+      ->capture_default_str();
+}
+
 void add_info(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<InfoOptions>();
   add_scene(*add_command<InfoOptions>(app, "info", "What was read: surfaces, materials, flux, box in metres, repairs",
@@ -233,6 +257,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_solve(app, command);
   add_validate(app, command);
   add_trace(app, command);
+  add_view_factors(app, command);
   add_info(app, command);
   add_check(app, command);
   try {

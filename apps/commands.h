@@ -15,6 +15,7 @@ enum ExitStatus : int {
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run);
 ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run);
 ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& run);
+ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run);
 ExitStatus info(const InfoOptions& options, const CommonOptions& common, Run& run);
 ExitStatus check(const CheckOptions& options, const CommonOptions& common, Run& run);
 

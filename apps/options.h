@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fem/radiosity.h"
+#include "scene/geometry_file.h"
 
 /// What the command line says, as plain values: the commands see no parser.
 namespace interflect::apps {
@@ -22,6 +23,7 @@ struct CommonOptions {
 struct SolveOptions {
   std::filesystem::path scene, out;
   fem::RadiositySettings settings;
+  std::filesystem::path factors;  ///< an .h5 of view factors to use; empty: they are computed
   bool forecast_only = false;
   bool pictures = true;
 };
@@ -45,6 +47,17 @@ struct TraceOptions {
 
 struct InfoOptions {
   std::filesystem::path scene;
+};
+
+struct ViewFactorOptions {
+  std::filesystem::path input, out;
+  scene::GeometryOptions geometry;
+  std::string form_factors = "analytic";
+  double tolerance = 1e-4;   ///< on the largest row's sum of errors
+  double element_size = 0;   ///< longest edge [m]; 0: one element a face
+  int visibility_rays = 16, resolution = 256;
+  std::uint64_t samples = 0;
+  std::string groups;        ///< what the factors of a .csv are summed by; empty: by nothing
 };
 
 struct CheckOptions {

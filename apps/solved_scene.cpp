@@ -1,11 +1,13 @@
 #include "apps/solved_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "apps/read_scene.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "results/factor_store.h"
 
 namespace interflect::apps {
 namespace {
@@ -17,6 +19,26 @@ std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
   std::vector<measure::Measurement> asked;
   for (const measure::SensorPoint& point : solved.points) asked.emplace_back(point.at);
   return solved.method().answer(solved.scene, asked, run);
+}
+
+/// K of a file, for the geometry that it is of.
+auto factors_from(const std::filesystem::path& file) {
+  return [file](const scene::Scene& scene, std::span<const scene::SurfacePatch> elements, fem::ExchangeSink& sink) {
+    const results::FactorStore store(file);
+    store.require_geometry(results::geometry_digest(scene, elements));
+    const Index n = store.size(), height = store.tile();
+    std::vector<double> K(static_cast<std::size_t>(height * n)), error(K.size());
+    for (Index first = 0; first < n; first += height) {
+      const Index rows = std::min(height, n - first);
+      const auto numbers = static_cast<std::size_t>(rows * n);
+      store.read_rows(first, rows, {K.data(), numbers}, {error.data(), numbers});
+      for (Index a = 0; a < rows; ++a)
+        for (Index b = first + a; b < n; ++b) {
+          const auto at = static_cast<std::size_t>(a * n + b);
+          if (K[at] != 0 || error[at] != 0) sink.add(first + a, b, {K[at], 0, error[at]});
+        }
+    }
+  };
 }
 
 /// Sensors none of whose points sees any light.
@@ -69,7 +91,9 @@ std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const Comm
   if (!common.json && !common.quiet) std::printf("bounding box %s\n%s\n", box_text(scene).c_str(), describe(forecast).c_str());
   std::fflush(stdout);
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
-  auto solution = fem::solve_radiosity(scene, options.settings, run);
+  fem::RadiositySettings settings = options.settings;
+  if (!options.factors.empty()) settings.stored_factors = factors_from(options.factors);
+  auto solution = fem::solve_radiosity(scene, settings, run);
   auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution));
   solved->folder = std::move(folder);
   solved->points = std::move(points);

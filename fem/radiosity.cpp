@@ -128,6 +128,7 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
   DenseSymmetric K(areas_of(s.mesh));
   timed("form factors", [&] {
+    if (settings.stored_factors) return settings.stored_factors(scene, s.mesh.patches(), K);
     const auto method = make_form_factor_method(
         settings.form_factors,
         {scene, s.mesh.patches(), *rays, run.seed, settings.quadrature_tolerance, settings.visibility_rays});

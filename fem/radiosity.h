@@ -22,6 +22,8 @@ struct RadiositySettings {
   int visibility_rays = 16;
   bool restore_closure = false;  ///< project K onto symmetric matrices with the row sums of a closed scene
   double max_memory = 4e9;       ///< [bytes]
+  /// Where K comes from instead of `form_factors`, if there is such a source: entries of all pairs of these elements, each once.
+  std::function<void(const scene::Scene&, std::span<const scene::SurfacePatch>, ExchangeSink&)> stored_factors;
 };
 
 /// The element size asked for, or the default one [m]: that of about 2 500 elements, or, where a mesh of more facets brings

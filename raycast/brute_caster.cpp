@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "core/error.h"
@@ -51,6 +52,17 @@ class BruteCaster final : public RayCaster {
         nearest = *at, hit = i;
     if (hit == corners_.size()) return std::nullopt;
     return surface_point(facets_[hit], static_cast<std::uint32_t>(hit), ray.direction, nearest.u, nearest.v);
+  }
+
+  void all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const override {
+    const Vec3 origin = local(ray.origin, ray.leaves);
+    std::vector<std::pair<Crossing, std::size_t>> met;
+    for (std::size_t i = 0; i < corners_.size(); ++i)
+      if (const auto at = crossing(i, origin, ray.direction); at && at->t > 0) met.emplace_back(*at, i);
+    std::stable_sort(met.begin(), met.end(), [](const auto& a, const auto& b) { return a.first.t < b.first.t; });
+    hits.clear();
+    for (const auto& [at, i] : met)
+      hits.push_back(surface_point(facets_[i], static_cast<std::uint32_t>(i), ray.direction, at.u, at.v));
   }
 
   bool occluded(const Segment& segment) const override {

@@ -1,7 +1,9 @@
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <limits>
+#include <mutex>
 #include <new>
 
 #include "core/error.h"
@@ -56,6 +58,31 @@ class ToUnitBox {
   double scale_, offset_;
 };
 
+/// A facet that a ray meets.
+struct Crossing {
+  double t;
+  std::uint32_t facet;
+  float u, v;
+};
+
+/// What `all` hands through Embree to its filter: the context must come first.
+struct Gathering {
+  RTCIntersectContext context;
+  std::vector<Crossing>& met;
+};
+
+/// Takes every crossing down and refuses it, so that the traversal goes on to the last.
+void gather(const RTCFilterFunctionNArguments* at) {
+  auto& gathering = *reinterpret_cast<Gathering*>(at->context);  // NOLINT: Embree's way to extend a context
+  const unsigned n = at->N;
+  for (unsigned k = 0; k < n; ++k) {
+    if (at->valid[k] == 0) continue;
+    gathering.met.push_back(
+        {RTCRayN_tfar(at->ray, n, k), RTCHitN_primID(at->hit, n, k), RTCHitN_u(at->hit, n, k), RTCHitN_v(at->hit, n, k)});
+    at->valid[k] = 0;
+  }
+}
+
 class EmbreeCaster final : public RayCaster {
  public:
   explicit EmbreeCaster(const scene::Scene& scene)
@@ -82,6 +109,22 @@ class EmbreeCaster final : public RayCaster {
     rtcIntersect1(bvh_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return surface_point(facets_[query.hit.primID], query.hit.primID, ray.direction, query.hit.u, query.hit.v);
+  }
+
+  void all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const override {
+    std::call_once(filtered_once_, [this] { filtered_ = filtered_scene(); });
+    std::vector<Crossing> met;
+    Gathering gathering{{}, met};
+    rtcInitIntersectContext(&gathering.context);
+    gathering.context.filter = gather;
+    RTCRayHit query;
+    query.ray = ray_from(to_unit_(ray.origin, ray.leaves), ray.direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(filtered_.get(), &gathering.context, &query);
+    for (Crossing& crossing : met) crossing.t = distance(ray, crossing);
+    std::ranges::sort(met, {}, [](const Crossing& crossing) { return std::pair(crossing.t, crossing.facet); });
+    hits.clear();
+    for (const auto& [t, facet, u, v] : met) hits.push_back(surface_point(facets_[facet], facet, ray.direction, u, v));
   }
 
   bool occluded(const Segment& segment) const override {
@@ -131,6 +174,26 @@ class EmbreeCaster final : public RayCaster {
     query.id[lane] = query.flags[lane] = 0;
   }
 
+  /// Along the ray to the facet's plane, in double precision but where the ray grazes it: single precision does not tell the order of close
+  /// surfaces.
+  double distance(const Ray& ray, const Crossing& at) const {
+    const scene::Facet& facet = facets_[at.facet];
+    const double cosine = facet.normal.dot(ray.direction);
+    if (std::abs(cosine) < 1e-6) return at.t * frame_.size;
+    return facet.normal.dot(facet.corner[0] - ray.origin) / cosine;
+  }
+
+  /// The same facets once more: a hierarchy that asks filters is slower, and only `all` pays for it.
+  EmbreeScene filtered_scene() const {
+    const KeepFloatingPointModes keep;
+    EmbreeScene scene(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    if (!facets_.empty()) rtcAttachGeometry(scene.get(), rtcGetGeometry(bvh_.get(), 0));
+    rtcCommitScene(scene.get());
+    require_no_error(device_.get());
+    return scene;
+  }
+
   void attach_facets() {
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     const auto buffer = [&](RTCBufferType type, RTCFormat format, std::size_t items) {
@@ -155,6 +218,8 @@ class EmbreeCaster final : public RayCaster {
   ToUnitBox to_unit_;
   Device device_;
   EmbreeScene bvh_;
+  mutable std::once_flag filtered_once_;
+  mutable EmbreeScene filtered_;  ///< made by the first `all`
 };
 
 }  // namespace

@@ -17,6 +17,15 @@ constexpr std::array catalogue{Entry{"embree", make_embree_caster}, Entry{"brute
 
 }  // namespace
 
+void RayCaster::all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const {
+  hits.clear();
+  Ray rest = ray;
+  while (const auto hit = closest(rest)) {
+    hits.push_back(*hit);
+    rest = {hit->position, ray.direction, -hit->normal};
+  }
+}
+
 std::unique_ptr<RayCaster> make_ray_caster(const std::string& name, const scene::Scene& scene) {
   std::string known;
   for (const Entry& entry : catalogue) {

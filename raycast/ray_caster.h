@@ -35,6 +35,12 @@ class RayCaster {
 
   /// What the ray meets first; its position recomputed in double precision on the facet's plane.
   virtual std::optional<scene::SurfacePoint> closest(const Ray& ray) const = 0;
+  /// All that the ray meets, in the order of their distance, facets at the same place in the order of the scene; positions as in
+  /// `closest`. A line through an edge that two facets share may meet both.  By default one `closest` after the other, each hit
+  /// being left through its other side: of surfaces closer to each other than `offset()` some are missed; the scene's own casters
+  /// miss none.
+  /// @param hits  overwritten
+  virtual void all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const;
   /// Is there anything strictly between the ends?
   virtual bool occluded(const Segment& segment) const = 0;
   /// The same for many segments, eight at a time: blocked[k] is 1 or 0.

@@ -19,9 +19,9 @@ packages=(
   g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libtbb-dev libspdlog-dev        # core
   libcgal-dev                                   # geometry
-  nlohmann-json3-dev libtinyobjloader-dev libassimp-dev   # scene
+  nlohmann-json3-dev libtinyobjloader-dev libassimp-dev zlib1g-dev   # scene
   libembree-dev libopenmesh-dev                 # raycast, mesh
-  libopenexr-dev libstb-dev                     # results
+  libopenexr-dev libstb-dev libhdf5-dev         # results
   libcli11-dev                                  # apps
   libgtest-dev libbenchmark-dev                 # tests, bench
 )

@@ -1,6 +1,13 @@
+#include <algorithm>
+
 #include "core/error.h"
 #include "fem/form_factor/analytic.h"
+#include "fem/form_factor/area_to_area.h"
 #include "fem/form_factor/gauss_lambert.h"
+#include "fem/form_factor/global_lines.h"
+#include "fem/form_factor/hemicube.h"
+#include "fem/form_factor/hemisphere_rays.h"
+#include "fem/form_factor/single_plane.h"
 
 namespace interflect::fem {
 
@@ -16,7 +23,11 @@ std::unique_ptr<FormFactorMethod> make(const FormFactorContext& context) {
   return std::make_unique<Method>(context);
 }
 
-constexpr Entry catalogue[] = {{"analytic", make<Analytic>}, {"gauss-lambert", make<GaussLambert>}};
+constexpr Entry catalogue[] = {{"analytic", make<Analytic>}, {"gauss-lambert", make<GaussLambert>},
+                               {"area-to-area", make<AreaToArea>}, {"hemisphere-rays", make<HemisphereRays>},
+                               {"global-lines", make<GlobalLines>},
+                               {"hemicube", make<ExactHemicube>}, {"hemicube-midpoint", make<MidpointHemicube>},
+                               {"hemicube-max", make<MaxHemicube>}, {"single-plane", make<SinglePlane>}};
 
 }  // namespace
 
@@ -28,6 +39,7 @@ PairCounts& PairCounts::operator+=(const PairCounts& o) {
   subtracted += o.subtracted;
   points += o.points;
   clamped += o.clamped;
+  lost = std::max(lost, o.lost);
   return *this;
 }
 

@@ -29,6 +29,8 @@ class ExchangeSink {
  public:
   virtual ~ExchangeSink() = default;
   virtual void add(Index a, Index b, const ExchangeEntry& entry) = 0;
+  /// Said once by a row method that samples: what a view from a is worth beside the other one of a pair, chosen without a look at K.
+  virtual void weigh_row(Index, double) {}
 };
 
 /// Counts of what happened to the pairs of an assembly.
@@ -40,6 +42,7 @@ struct PairCounts {
   std::uint64_t subtracted = 0;  ///< what hides a part was taken out exactly
   std::uint64_t points = 0;      ///< at which that was done
   std::uint64_t clamped = 0;  ///< entries pulled back into 0 <= K <= min(A_a, A_b)
+  double lost = 0;  ///< largest part of a row that its method cannot see and does not make up for, in [0, 1)
   PairCounts& operator+=(const PairCounts& o);
 };
 

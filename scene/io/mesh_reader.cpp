@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "scene/io/text_file.h"
+#include "scene/io/vtk_reader.h"
 
 namespace interflect::scene::io {
 namespace {
@@ -16,22 +17,28 @@ struct Format {
   MeshFile (*read)(const std::filesystem::path&, const std::string&);
 };
 
-constexpr std::array<Format, 5> formats = {{{".obj", read_obj},
+constexpr std::array<Format, 7> formats = {{{".obj", read_obj},
                                             {".ply", read_by_assimp},
                                             {".stl", read_by_assimp},
                                             {".gltf", read_by_assimp},
-                                            {".glb", read_by_assimp}}};
+                                            {".glb", read_by_assimp},
+                                            {".vtu", read_vtk},
+                                            {".vtp", read_vtk}}};
 
 const Format& format_of(const std::filesystem::path& file, const std::string& shown) {
   const std::string extension = core::lower_case(file.extension().string());
   for (const Format& format : formats)
     if (extension == format.extension) return format;
-  std::vector<std::string> known;
-  for (const Format& format : formats) known.emplace_back(format.extension);
-  throw core::InputError(shown, unknown_word("the mesh format", extension, known));
+  throw core::InputError(shown, unknown_word("the mesh format", extension, mesh_extensions()));
 }
 
 }  // namespace
+
+std::vector<std::string> mesh_extensions() {
+  std::vector<std::string> known;
+  for (const Format& format : formats) known.emplace_back(format.extension);
+  return known;
+}
 
 MeshFile read_mesh(const std::filesystem::path& file, const std::string& shown) {
   const Format& format = format_of(file, shown);

@@ -39,7 +39,10 @@ class NameList {
   std::unordered_map<std::string, std::uint32_t> at_;
 };
 
-/// Reads OBJ in double precision; PLY, STL, glTF and GLB in single precision.
+/// What files of the formats that are read end in: ".obj", ..
+std::vector<std::string> mesh_extensions();
+
+/// Reads OBJ in double precision; PLY, STL, glTF and GLB in single precision; VTU and VTP in the file's own.
 /// @param shown  how messages name the file
 /// @throws core::InputError  "FILE: .." or "FILE:LINE: ..": unknown, broken or lying files, and files without a face
 MeshFile read_mesh(const std::filesystem::path& file, const std::string& shown);

@@ -3,10 +3,27 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.h"
+#include "scene/io/text_file.h"
+
 namespace interflect::scene::io {
 namespace {
 
-/// Cosine and sine of an angle in degrees, exact at multiples of 90.
+constexpr std::array<const char*, 5> unit_names = {"m", "cm", "mm", "ft", "in"};
+constexpr std::array<LengthUnit, 5> units = {{{1, 1}, {1, 100}, {1, 1000}, {0.3048, 1}, {0.0254, 1}}};
+
+Eigen::Matrix3d rotation(int axis, double degrees) {
+  const auto [c, s] = cosine_sine(degrees);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  Eigen::Matrix3d m = Eigen::Matrix3d::Identity();
+  m(u, u) = m(v, v) = c;
+  m(u, v) = -s;
+  m(v, u) = s;
+  return m;
+}
+
+}  // namespace
+
 std::array<double, 2> cosine_sine(double degrees) {
   const double quarter = std::remainder(degrees, 90.0);
   const int quarters = static_cast<int>(std::lround(std::remainder(degrees - quarter, 360.0) / 90.0));
@@ -23,21 +40,14 @@ std::array<double, 2> cosine_sine(double degrees) {
   }
 }
 
-Eigen::Matrix3d rotation(int axis, double degrees) {
-  const auto [c, s] = cosine_sine(degrees);
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  Eigen::Matrix3d m = Eigen::Matrix3d::Identity();
-  m(u, u) = m(v, v) = c;
-  m(u, v) = -s;
-  m(v, u) = s;
-  return m;
+LengthUnit read_unit(const JsonNode& node) {
+  return units[node.one_of({unit_names.begin(), unit_names.end()})];
 }
 
-}  // namespace
-
-LengthUnit read_unit(const JsonNode& node) {
-  constexpr std::array<LengthUnit, 5> units = {{{1, 1}, {1, 100}, {1, 1000}, {0.3048, 1}, {0.0254, 1}}};
-  return units[node.one_of({"m", "cm", "mm", "ft", "in"})];
+LengthUnit unit_named(const std::string& name) {
+  for (std::size_t k = 0; k < units.size(); ++k)
+    if (name == unit_names[k]) return units[k];
+  throw core::InputError(unknown_word("the unit", name, {unit_names.begin(), unit_names.end()}));
 }
 
 Placement read_placement(const JsonNode& entry, const LengthUnit& unit) {

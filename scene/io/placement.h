@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct LengthUnit {
 
 /// m | cm | mm | ft | in.
 LengthUnit read_unit(const JsonNode& node);
+/// @throws core::InputError  with the names known
+LengthUnit unit_named(const std::string& name);
+
+/// Cosine and sine of an angle in degrees, exact at multiples of 90.
+std::array<double, 2> cosine_sine(double degrees);
 
 /// Where geometry goes: metres(linear x + translation).  It keeps orientation: the determinant of `linear` is positive.
 struct Placement {

@@ -21,12 +21,12 @@ set(rooms core geometry scene measure raycast mesh solvers fem montecarlo valida
 # A third-party library is seen in its own room only, and never in a header.  Eigen is everyone's.
 set(library_core "spdlog/|tbb/|oneapi/")
 set(library_geometry "CGAL/")
-set(library_scene "nlohmann/|tiny_obj_loader|assimp/")
+set(library_scene "nlohmann/|tiny_obj_loader|assimp/|zlib")
 set(library_raycast "embree")
 set(library_mesh "OpenMesh/")
-set(library_results "nlohmann/|OpenEXR/|Imf|Imath|stb")
+set(library_results "nlohmann/|OpenEXR/|Imf|Imath|stb|hdf5|H5")
 set(library_visual "vtk")
-set(libraries "spdlog/|tbb/|oneapi/|CGAL/|nlohmann/|tiny_obj_loader|assimp/|embree|OpenMesh/|OpenEXR/|Imf|Imath|stb|vtk|CLI/|boost/|fmt/")
+set(libraries "spdlog/|tbb/|oneapi/|CGAL/|nlohmann/|tiny_obj_loader|assimp/|embree|OpenMesh/|OpenEXR/|Imf|Imath|stb|hdf5|H5|zlib|vtk|CLI/|boost/|fmt/")
 
 set(faults)
 foreach(room IN LISTS rooms)

@@ -1,15 +1,15 @@
 #include "results/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 #include "core/error.h"
+#include "full_disk.h"
 #include "results/output_directory.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace interflect;
 using namespace interflect::results;
+using test::FullDisk;
 
 namespace {
 
@@ -21,24 +21,6 @@ std::string message_of(const std::function<void()>& action) {
   }
   return "";
 }
-
-/// No file may grow beyond so many bytes: a disk that is full.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : signal_(::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    ::signal(SIGXFSZ, signal_);
-  }
-
- private:
-  rlimit before_{};
-  void (*signal_)(int);
-};
 
 }  // namespace
 

@@ -82,7 +82,7 @@ TEST(BadMesh, a_weld_below_rounding_is_refused_where_it_stands) {
 
 TEST(BadMesh, unknown_formats_are_named) {
   EXPECT_EQ(said_of("m.3ds", "x"),
-            "m.3ds: the mesh format '.3ds' is not known: one of .obj, .ply, .stl, .gltf, .glb is expected");
+            "m.3ds: the mesh format '.3ds' is not known: one of .obj, .ply, .stl, .gltf, .glb, .vtu, .vtp is expected");
   EXPECT_EQ(said_of("m.gtlf", "x"), "m.gtlf: the mesh format '.gtlf' is not known: did you mean '.gltf'?");
 }
 

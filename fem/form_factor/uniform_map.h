@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "core/vec.h"
+
+namespace interflect::fem {
+
+/// From the unit square onto a triangle or a convex planar quad, area onto area: uniform numbers become uniform points, and
+/// evenly spread numbers evenly spread points.
+///
+/// Triangles by the map of [Turk 1990].  Quads by the bilinear map of (s, t), whose Jacobian w0 + s ws + t wt is linear on a
+/// plane, at s and t drawn by inversion: s from its marginal density, t from the conditional one.
+class UniformMap {
+ public:
+  /// @param ring  3 or 4 corners [m]
+  explicit UniformMap(std::span<const Vec3> ring);
+  /// @param u, v  in [0, 1]
+  Vec3 operator()(double u, double v) const;
+
+ private:
+  bool triangle_;
+  Vec3 corner_, along_s_, along_t_, twist_ = Vec3::Zero();
+  double jacobian_ = 1, jacobian_s_ = 0, jacobian_t_ = 0;  ///< up to a factor
+};
+
+}  // namespace interflect::fem

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fem/row_errors.h"
+
+namespace interflect::fem {
+
+/// Where a symmetric matrix and its errors go tile by tile: a file, mostly, larger than memory.
+///
+/// Tile (I, J), I <= J, holds the elements I size .. and J size .., the last tiles as many as there are, row by row.
+class TileStore {
+ public:
+  virtual ~TileStore() = default;
+  virtual Index tile_size() const = 0;
+  virtual bool is_done(Index I, Index J) const = 0;  ///< by an earlier run
+  /// From any thread; a tile may be written again.  K and its errors [m²]; symmetric where I == J.
+  virtual void write(Index I, Index J, std::span<const double> K, std::span<const double> error) = 0;
+  virtual void read(Index I, Index J, std::span<double> K, std::span<double> error) const = 0;
+};
+
+/// `assemble_to_tolerance` into a store; tiles that are done are left as they are, unless rows in them do not meet the tolerance.  Errors
+/// are bound + 1.96 standard errors.  Methods that go by rows or all at once need 12 N² bytes on the way.
+/// @throws core::Interrupted  with whole tiles written
+ToleranceReport assemble_tiles(const std::function<std::unique_ptr<FormFactorMethod>(double)>& make, double tolerance,
+                               std::span<const scene::SurfacePatch> patches, TileStore& store, Run& run);
+
+}  // namespace interflect::fem

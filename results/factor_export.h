@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "results/factors.h"
+
+/// A finished matrix of view factors in the files of others (docs/view_factor_files.md).  Rows stream through: no file is held in
+/// memory.  All are written as AtomicFile does, and throw core::InputError as it does.
+namespace interflect::results {
+
+/// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n).  Asks for the rows twice.
+void write_factors_npz(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
+
+/// Matrix Market, coordinate real general, 17 digits: the entries F_ij that are not 0.  Errors have no place in it.
+void write_factors_mtx(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
+
+/// `i,j,F,error` with 17 digits, elements numbered from 0.  Pairs whose F and error are both 0 are left out.
+void write_factors_csv(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
+
+/// `from,to,F,error`: F_GH = sum_{i in G} A_i sum_{j in H} F_ij / A_G, groups in the order of their first elements; errors
+/// add, which bounds the sum's.  Pairs as above.  Asks for the rows group by group.
+/// @param group  an element's: elements.name, or whatever else is to be summed over
+void write_grouped_factors_csv(const std::filesystem::path& file, const FactorElements& elements,
+                               const FactorRows& rows, std::span<const std::string> group);
+
+}  // namespace interflect::results

@@ -1,0 +1,326 @@
+#include "results/factor_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/format.h"
+#include "results/atomic_file.h"
+
+namespace interflect::results {
+
+namespace {
+
+using Sizes = Hdf5File::Sizes;
+
+constexpr const char* format_name = "interflect/view-factors/1";
+
+std::uint64_t size_of(Index count) { return static_cast<std::uint64_t>(count); }
+
+/// The least float that is not below x, so that a bound stays one.
+float rounded_up(double x) {
+  const float nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) < x ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
+}
+
+void require_store(const Hdf5File& file) {
+  if (!file.has("format")) throw core::InputError(file.path().string(), "this HDF5 file holds no view factors");
+  if (const std::string format = file.note("format"); format != format_name)
+    throw core::InputError(file.path().string(), std::string("'") + format_name + "' is expected, not '" +
+                                                     core::single_line(format.substr(0, 60)) + "'");
+}
+
+void require_sizes(const Hdf5File& file, const std::string& name, const Sizes& sizes) {
+  if (file.sizes_of(name) != sizes)
+    throw core::InputError(file.path().string(), "'" + name + "' does not have the size of the rest");
+}
+
+void require_digest(const Hdf5File& file, const std::string& stored, const std::string& expected) {
+  if (stored != expected)
+    throw core::InputError(file.path().string(), "its view factors are of another geometry (digest " +
+                                                     core::single_line(stored.substr(0, 40)) + ", not " + expected + ")");
+}
+
+std::vector<double> flat(const std::vector<Vec3>& points) {
+  std::vector<double> out;
+  out.reserve(3 * points.size());
+  for (const Vec3& x : points) out.insert(out.end(), {x.x(), x.y(), x.z()});
+  return out;
+}
+
+/// @param padded  elements, up to whole tiles
+Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded) {
+  std::size_t width = 1;
+  for (const std::string& name : elements.name) width = std::max(width, name.size());
+  constexpr std::uint64_t structure = 1 << 20, lists = 9 * sizeof(double);
+  const std::uint64_t at_once = structure + elements.area.size() * (lists + width);
+  return {at_once + padded * padded * (sizeof(double) + sizeof(float)), at_once};
+}
+
+std::vector<double> read_doubles(const Hdf5File& file, const std::string& name, std::uint64_t count) {
+  require_sizes(file, name, {count});
+  std::vector<double> out(count);
+  file.read(name, {0}, {count}, out.data());
+  return out;
+}
+
+std::vector<Vec3> read_points(const Hdf5File& file, const std::string& name, std::uint64_t count) {
+  require_sizes(file, name, {count, 3});
+  std::vector<double> numbers(3 * count);
+  file.read(name, {0, 0}, {count, 3}, numbers.data());
+  std::vector<Vec3> out(count);
+  for (std::size_t i = 0; i < count; ++i) out[i] = Vec3(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+  return out;
+}
+
+/// Number of elements, which the file is large enough for.
+std::uint64_t element_count(const Hdf5File& file) {
+  const Sizes sizes = file.sizes_of("area");
+  std::error_code error;
+  if (sizes.size() != 1 || sizes[0] > std::filesystem::file_size(file.path(), error) / sizeof(double))
+    throw core::InputError(file.path().string(), "'area' promises more than the file holds");
+  return sizes[0];
+}
+
+Index tile_size(const Hdf5File& file, std::uint64_t elements) {
+  const std::uint64_t tile = file.count("tile");
+  if (tile == 0 || tile > std::max<std::uint64_t>(elements, 1))
+    throw core::InputError(file.path().string(), "'tile' is no size of a tile");
+  return static_cast<Index>(tile);
+}
+
+std::vector<std::uint8_t> read_done(const Hdf5File& file, Index across) {
+  const Sizes sizes{size_of(across), size_of(across)};
+  require_sizes(file, "tile_done", sizes);
+  std::vector<std::uint8_t> done(sizes[0] * sizes[1]);
+  file.read("tile_done", {0, 0}, sizes, done.data());
+  return done;
+}
+
+}  // namespace
+
+Hdf5File FactorStoreWriter::begin(const std::filesystem::path& file, const FactorElements& elements,
+                                  const FactorStoreKey& key, Index tile) {
+  const std::uint64_t n = size_of(elements.size()), t = size_of(tile), across = (n + t - 1) / t;
+  Hdf5File store = Hdf5File::create(file, room_for(elements, across * t));
+  store.write_note("format", format_name);
+  store.write_note("digest", key.digest);
+  store.write_note("settings", key.settings);
+  store.write_count("tile", t);
+  for (const char* name : {"area", "row_sum", "row_error"}) store.make_doubles(name, {n});
+  for (const char* name : {"normal", "centroid"}) store.make_doubles(name, {n, 3});
+  store.make_bytes("tile_done", {across, across});
+  const Sizes tiles = n > 0 ? Sizes{t, t} : Sizes{};
+  store.make_doubles("K", {n, n}, tiles);
+  store.make_floats("K_error", {n, n}, tiles);
+  store.write("area", {0}, {n}, elements.area.data());
+  store.write("normal", {0, 0}, {n, 3}, flat(elements.normal).data());
+  store.write("centroid", {0, 0}, {n, 3}, flat(elements.centroid).data());
+  store.write_texts("name", elements.name);
+  store.flush();
+  return store;
+}
+
+FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorElements& elements,
+                                     const FactorStoreKey& key, Index tile)
+    : file_(std::move(file)), partial_(file_.string() + ".partial"), size_(elements.size()), area_(elements.area) {
+  const std::size_t n = elements.area.size();
+  if (elements.normal.size() != n || elements.centroid.size() != n || elements.name.size() != n || tile < 1)
+    throw core::PreconditionError("FactorStoreWriter: one entry per element in each list, and a tile of 1 or more");
+  if (std::error_code error; file_.filename().empty() || std::filesystem::is_directory(file_, error))
+    throw core::InputError(file_.string(), "cannot be written: Is a directory");
+  if (std::error_code error; !std::filesystem::exists(partial_, error)) {
+    // Not under its name before it can be opened again.
+    const std::filesystem::path unborn = partial_.string() + ".new";
+    try {
+      begin(unborn, elements, key, std::min(tile, std::max<Index>(size_, 1)));
+      keep_as(unborn, partial_);
+    } catch (const core::InputError&) {
+      std::filesystem::remove(unborn, error);
+      throw;
+    }
+  }
+  go_on(elements, key);
+}
+
+void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreKey& key) {
+  store_ = std::make_unique<Hdf5File>(Hdf5File::open(partial_, Hdf5File::Access::change));
+  require_store(*store_);
+  require_digest(*store_, store_->note("digest"), key.digest);
+  if (store_->note("settings") != key.settings)
+    throw core::InputError(partial_.string(),
+                           "it was begun with other settings (remove it to begin anew, or repeat them to go on)");
+  const std::uint64_t n = element_count(*store_);
+  if (n != size_of(elements.size()) || read_doubles(*store_, "area", n) != elements.area ||
+      store_->texts("name") != elements.name)
+    throw core::InputError(partial_.string(), "its elements are others than those of this run");
+  tile_ = tile_size(*store_, n);
+  across_ = (size_ + tile_ - 1) / tile_;
+  require_sizes(*store_, "K", {n, n});
+  require_sizes(*store_, "K_error", {n, n});
+  done_ = read_done(*store_, across_);
+}
+
+bool FactorStoreWriter::is_done(Index I, Index J) const {
+  const std::lock_guard lock(mutex_);
+  return done_[static_cast<std::size_t>(I * across_ + J)] != 0;
+}
+
+Index FactorStoreWriter::done() const {
+  const std::lock_guard lock(mutex_);
+  return std::count_if(done_.begin(), done_.end(), [](std::uint8_t flag) { return flag != 0; });
+}
+
+void FactorStoreWriter::write(Index I, Index J, std::span<const double> K, std::span<const double> error) {
+  if (I < 0 || I > J || J >= across_) throw core::PreconditionError("FactorStoreWriter: no such tile");
+  const Sizes from{size_of(first(I)), size_of(first(J))}, sizes{size_of(count(I)), size_of(count(J))};
+  if (K.size() != sizes[0] * sizes[1] || error.size() != K.size())
+    throw core::PreconditionError("FactorStoreWriter: a number per pair of the tile expected");
+  bool zero = true;
+  std::vector<float> bound(error.size());
+  for (std::size_t k = 0; k < K.size(); ++k) {
+    if (!std::isfinite(K[k]) || !(error[k] >= 0)) throw core::PreconditionError("FactorStoreWriter: not a number");
+    bound[k] = rounded_up(error[k]);
+    zero = zero && K[k] == 0 && bound[k] == 0;
+  }
+  const std::lock_guard lock(mutex_);
+  if (!store_) throw core::PreconditionError("FactorStoreWriter: it is finished");
+  if (!zero) {  // a hole of the file reads as zeros
+    store_->write("K", from, sizes, K.data());
+    store_->write("K_error", from, sizes, bound.data());
+  }
+  // Last, so that a flag is never ahead of its tile.
+  const std::uint8_t yes = 1;
+  store_->write("tile_done", {size_of(I), size_of(J)}, {1, 1}, &yes);
+  done_[static_cast<std::size_t>(I * across_ + J)] = yes;
+}
+
+void FactorStoreWriter::read(Index I, Index J, std::span<double> K, std::span<double> error) const {
+  const Sizes from{size_of(first(I)), size_of(first(J))}, sizes{size_of(count(I)), size_of(count(J))};
+  if (I > J || K.size() != sizes[0] * sizes[1] || error.size() != K.size())
+    throw core::PreconditionError("FactorStoreWriter: a number per pair of the tile expected");
+  std::vector<float> bound(error.size());
+  const std::lock_guard lock(mutex_);
+  if (!store_) throw core::PreconditionError("FactorStoreWriter: it is finished");
+  store_->read("K", from, sizes, K.data());
+  store_->read("K_error", from, sizes, bound.data());
+  std::copy(bound.begin(), bound.end(), error.begin());
+}
+
+void FactorStoreWriter::write_row_sums() {
+  std::vector<double> sum(area_.size()), bound(area_.size()), K;
+  std::vector<float> error;
+  for (Index I = 0; I < across_; ++I)
+    for (Index J = I; J < across_; ++J) {
+      const std::size_t rows = size_of(count(I)), columns = size_of(count(J)), i0 = size_of(first(I)), j0 = size_of(first(J));
+      K.resize(rows * columns);
+      error.resize(rows * columns);
+      store_->read("K", {i0, j0}, {rows, columns}, K.data());
+      store_->read("K_error", {i0, j0}, {rows, columns}, error.data());
+      for (std::size_t a = 0; a < rows; ++a)
+        for (std::size_t b = 0; b < columns; ++b) {
+          const std::size_t k = a * columns + b;
+          sum[i0 + a] += K[k];
+          bound[i0 + a] += static_cast<double>(error[k]);
+          if (I == J) continue;
+          sum[j0 + b] += K[k];
+          bound[j0 + b] += static_cast<double>(error[k]);
+        }
+    }
+  for (std::size_t i = 0; i < area_.size(); ++i) sum[i] /= area_[i], bound[i] /= area_[i];
+  store_->write("row_sum", {0}, {sum.size()}, sum.data());
+  store_->write("row_error", {0}, {bound.size()}, bound.data());
+}
+
+void FactorStoreWriter::finish() {
+  if (done() != tiles()) throw core::PreconditionError("FactorStoreWriter: a tile is missing");
+  const std::lock_guard lock(mutex_);
+  if (!store_) throw core::PreconditionError("FactorStoreWriter: it is finished");
+  write_row_sums();
+  store_->flush();
+  store_.reset();
+  keep_as(partial_, file_);
+}
+
+FactorStore::FactorStore(const std::filesystem::path& file) : store_(Hdf5File::open(file, Hdf5File::Access::read)) {
+  require_store(store_);
+  key_ = {store_.note("digest"), store_.note("settings")};
+  const std::uint64_t n = element_count(store_);
+  elements_.area = read_doubles(store_, "area", n);
+  elements_.normal = read_points(store_, "normal", n);
+  elements_.centroid = read_points(store_, "centroid", n);
+  elements_.name = store_.texts("name");
+  require_sizes(store_, "name", {n});
+  row_sum_ = read_doubles(store_, "row_sum", n);
+  row_error_ = read_doubles(store_, "row_error", n);
+  require_sizes(store_, "K", {n, n});
+  require_sizes(store_, "K_error", {n, n});
+  tile_ = tile_size(store_, n);
+  const Index across = (size() + tile_ - 1) / tile_;
+  const std::vector<std::uint8_t> done = read_done(store_, across);
+  for (Index I = 0; I < across; ++I)
+    for (Index J = I; J < across; ++J)
+      if (done[size_of(I * across + J)] == 0)
+        throw core::InputError(file.string(), "it is not finished: the run that computes it can be repeated to go on");
+}
+
+void FactorStore::require_geometry(const std::string& digest) const { require_digest(store_, key_.digest, digest); }
+
+/// Rows first .. first + count, all within the tiles I: the tiles to the right as they lie, those above the diagonal turned.
+void FactorStore::read_tile_rows(Index I, Index first, Index count, double* K, double* error) const {
+  const std::size_t n = size_of(size());
+  std::vector<double> part;
+  std::vector<float> part_error;
+  for (Index j0 = 0; j0 < size(); j0 += tile_) {
+    const Index columns = std::min(tile_, size() - j0);
+    const bool turned = j0 < I * tile_;
+    const Sizes from = turned ? Sizes{size_of(j0), size_of(first)} : Sizes{size_of(first), size_of(j0)};
+    const Sizes sizes = turned ? Sizes{size_of(columns), size_of(count)} : Sizes{size_of(count), size_of(columns)};
+    part.resize(sizes[0] * sizes[1]);
+    part_error.resize(part.size());
+    store_.read("K", from, sizes, part.data());
+    store_.read("K_error", from, sizes, part_error.data());
+    for (std::size_t a = 0; a < size_of(count); ++a)
+      for (std::size_t b = 0; b < size_of(columns); ++b) {
+        const std::size_t k = turned ? b * sizes[1] + a : a * sizes[1] + b;
+        K[a * n + size_of(j0) + b] = part[k];
+        error[a * n + size_of(j0) + b] = static_cast<double>(part_error[k]);
+      }
+  }
+}
+
+void FactorStore::read_rows(Index first, Index count, std::span<double> K, std::span<double> error) const {
+  if (first < 0 || count < 0 || first + count > size() || K.size() != size_of(count) * size_of(size()) ||
+      error.size() != K.size())
+    throw core::PreconditionError("FactorStore: rows that are there, and space for them");
+  for (Index i = first; i < first + count;) {
+    const Index I = i / tile_, end = std::min(first + count, (I + 1) * tile_);
+    const std::size_t at = size_of(i - first) * size_of(size());
+    read_tile_rows(I, i, end - i, K.data() + at, error.data() + at);
+    i = end;
+  }
+}
+
+FactorRows FactorStore::rows() const {
+  struct Held {
+    Index tile = -1;
+    std::vector<double> K, error;
+  };
+  return [this, held = std::make_shared<Held>()](Index i, std::span<double> F, std::span<double> error) {
+    const std::size_t n = size_of(size());
+    if (const Index I = i / tile_; held->tile != I) {
+      const Index count = std::min(tile_, size() - I * tile_);
+      held->tile = -1;  // should reading fail
+      held->K.resize(size_of(count) * n);
+      held->error.resize(held->K.size());
+      read_rows(I * tile_, count, held->K, held->error);
+      held->tile = I;
+    }
+    const std::size_t at = size_of(i % tile_) * n;
+    const double area = elements_.area[size_of(i)];
+    for (std::size_t j = 0; j < n; ++j) F[j] = held->K[at + j] / area, error[j] = held->error[at + j] / area;
+  };
+}
+
+}  // namespace interflect::results

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "tests/apps/program.h"
+
+namespace interflect::test {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// The unit cube's walls, seen from inside.
+const std::string cube =
+    "v 0 0 0\nv 0 0 1\nv 0 1 0\nv 0 1 1\nv 1 0 0\nv 1 0 1\nv 1 1 0\nv 1 1 1\n"
+    "g low\nf 3 4 2 1\nf 6 8 7 5\ng high\nf 2 6 5 1\nf 7 8 4 3\nf 5 7 3 1\nf 4 8 6 2\n";
+
+/// F by (i, j) of a .csv.
+std::map<std::pair<std::string, std::string>, std::pair<double, double>> entries_of(const std::string& csv) {
+  std::map<std::pair<std::string, std::string>, std::pair<double, double>> entries;
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::string from, to, F, error;
+    std::getline(cells, from, ',');
+    std::getline(cells, to, ',');
+    std::getline(cells, F, ',');
+    std::getline(cells, error, ',');
+    entries[{from, to}] = {std::stod(F), std::stod(error)};
+  }
+  return entries;
+}
+
+TEST(ViewFactors, of_the_cube_are_the_known_ones_within_their_errors) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", cube), out = folder / "F.csv";
+  const Outcome run = interflect({"view-factors", mesh, "-o", out, "--tolerance", "1e-6"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(run.out, "from 1.000000 to 1.000000")) << run.out;
+  const auto F = entries_of(read_file(out));
+  EXPECT_EQ(F.size(), 30u);
+  for (const auto& [pair, entry] : F) {
+    const bool opposite = std::stoi(pair.first) / 2 == std::stoi(pair.second) / 2;
+    const double exact = opposite ? 0.19982489569838738 : 0.20004377607540315;
+    EXPECT_NEAR(entry.first, exact, entry.second + 1e-15);
+    EXPECT_LT(entry.second, 1e-6);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "F.h5"));
+}
+
+TEST(ViewFactors, are_written_in_every_format_and_summed_by_group) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", cube);
+  for (const char* name : {"F.h5", "F.npz", "F.mtx"})
+    EXPECT_EQ(interflect({"view-factors", mesh, "-o", folder / name, "--element-size", "0.5"}).status, 0) << name;
+  EXPECT_TRUE(contains(read_file(folder / "F.mtx"), "%%MatrixMarket matrix coordinate real general"));
+  ASSERT_EQ(interflect({"view-factors", mesh, "-o", folder / "G.csv", "--whole-groups", "--groups", "group"}).status, 0);
+  const std::string table = read_file(folder / "G.csv");
+  EXPECT_TRUE(contains(table, "from,to,F,error")) << table;
+  const auto G = entries_of(table);
+  ASSERT_EQ(G.size(), 4u) << table;
+  double low = 0;
+  for (const auto& [pair, entry] : G)
+    if (contains(pair.first, "low")) low += entry.first;
+  EXPECT_NEAR(low, 1, 1e-4);
+}
+
+// Computed once, used by a solve: the same solution as one that computes them, to the tolerance; of another geometry they are refused.
+TEST(ViewFactors, serve_a_solve_of_the_same_geometry_and_no_other) {
+  const TemporaryFolder folder;
+  const std::string factors = folder / "F.h5";
+  ASSERT_EQ(interflect({"view-factors", shipped_scene("cube"), "--element-size", "0.25", "-o", factors}).status, 0);
+  const auto mean_of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"solve", shipped_scene("cube"), "--element-size", "0.25", "--no-pictures", "--json", "-o", folder / "out"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome solve = interflect(command);
+    EXPECT_EQ(solve.status, 0) << solve.err;
+    return nlohmann::json::parse(solve.out).at("form_factors").at("row_sum_mean").get<double>();
+  };
+  EXPECT_NEAR(mean_of({"--factors", factors}), mean_of({"--form-factors", "analytic"}), 1e-4);
+  const Outcome other = interflect({"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "-o", folder / "other", "--factors", factors});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "F.h5")) << other.err;
+}
+
+// What a stopped run has written is not computed again, and the result is that of a run that was not stopped.
+TEST(ViewFactors, of_a_stopped_run_go_on) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> command{"view-factors", shipped_scene("concentric_cubes"), "--element-size", "0.12", "--threads", "2"};
+  const auto to = [&](const std::string& out) {
+    std::vector<std::string> whole = command;
+    whole.insert(whole.end(), {"-o", out});
+    return whole;
+  };
+  const auto some_tiles = [pattern = std::regex("form factors: [1-9][0-9]* %")](const std::string& err) { return std::regex_search(err, pattern); };
+  const Outcome stopped = interflect(to(folder / "F.h5"), {.interrupt_when = some_tiles});
+  EXPECT_EQ(stopped.status, 1) << stopped.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "F.h5"));
+  const Outcome rest = interflect(to(folder / "F.h5"));
+  EXPECT_EQ(rest.status, 0) << rest.err;
+  EXPECT_TRUE(contains(rest.out, "going on with ")) << rest.out;
+  ASSERT_EQ(interflect(to(folder / "G.h5")).status, 0);
+  for (const char* name : {"F", "G"}) {
+    std::vector<std::string> as_table = to(folder / (std::string(name) + ".csv"));
+    as_table.insert(as_table.end(), {"--groups", "surface"});
+    ASSERT_EQ(interflect(as_table).status, 0);
+  }
+  EXPECT_EQ(read_file(folder / "F.csv"), read_file(folder / "G.csv"));
+}
+
+TEST(ViewFactors, of_what_is_none_are_refused_in_one_line) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", cube);
+  for (const auto& [arguments, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"view-factors", folder / "none.stl", "-o", folder / "F.h5"}, "none.stl"},
+           {{"view-factors", mesh, "-o", folder / "F.txt"}, "one of .h5, .npz, .mtx, .csv expected"},
+           {{"view-factors", mesh, "-o", folder / "F.h5", "--groups", "group"}, "--groups writes .csv"},
+           {{"view-factors", mesh, "-o", folder / "F.h5", "--units", "parsec"}, "parsec"},
+           {{"view-factors", mesh, "-o", folder / "F.h5", "--only-occlude", "lamp"}, "lamp"}}) {
+    const Outcome run = interflect(arguments);
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_TRUE(contains(run.err, said)) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "F.h5"));
+  }
+}
+
+}  // namespace
+}  // namespace interflect::test
