@@ -5,15 +5,14 @@
 namespace interflect::fem {
 
 /// Form factors of pairs without rays and without noise: what hides parts of a pair is subtracted exactly, point by point, and integrated
-/// along the shadows' edges (hidden_exchange.h) [Nishita, Nakamae 1985].  Same numbers whatever the seed.
+/// along the shadows' edges (exact_occlusion.h) [Nishita, Nakamae 1985].  Same numbers whatever the seed.
 class Analytic final : public PairMethod {
  public:
   explicit Analytic(const FormFactorContext& context) : PairMethod(context) {}
   std::string name() const override { return "analytic"; }
 
  private:
-  class Shadows;
-  std::unique_ptr<Occlusion> occlusion() const override;
+  std::unique_ptr<PairOcclusion> occlusion() const override;
 };
 
 }  // namespace interflect::fem

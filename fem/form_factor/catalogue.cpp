@@ -7,6 +7,7 @@
 #include "fem/form_factor/global_lines.h"
 #include "fem/form_factor/hemicube.h"
 #include "fem/form_factor/hemisphere_rays.h"
+#include "fem/form_factor/hybrid.h"
 #include "fem/form_factor/single_plane.h"
 
 namespace interflect::fem {
@@ -23,7 +24,7 @@ std::unique_ptr<FormFactorMethod> make(const FormFactorContext& context) {
   return std::make_unique<Method>(context);
 }
 
-constexpr Entry catalogue[] = {{"analytic", make<Analytic>}, {"gauss-lambert", make<GaussLambert>},
+constexpr Entry catalogue[] = {{"analytic", make<Analytic>}, {"hybrid", make<Hybrid>}, {"gauss-lambert", make<GaussLambert>},
                                {"area-to-area", make<AreaToArea>}, {"hemisphere-rays", make<HemisphereRays>},
                                {"global-lines", make<GlobalLines>},
                                {"hemicube", make<ExactHemicube>}, {"hemicube-midpoint", make<MidpointHemicube>},

@@ -4,7 +4,7 @@
 
 namespace interflect::fem {
 
-class GaussLambert::Rays final : public Occlusion {
+class GaussLambert::Rays final : public PairOcclusion {
  public:
   explicit Rays(const GaussLambert& method) : method_(method) {}
 
@@ -26,6 +26,6 @@ class GaussLambert::Rays final : public Occlusion {
 GaussLambert::GaussLambert(const FormFactorContext& context)
     : PairMethod(context), visibility_(context.patches, context.rays, context.visibility_rays, context.seed) {}
 
-std::unique_ptr<PairMethod::Occlusion> GaussLambert::occlusion() const { return std::make_unique<Rays>(*this); }
+std::unique_ptr<PairOcclusion> GaussLambert::occlusion() const { return std::make_unique<Rays>(*this); }
 
 }  // namespace interflect::fem

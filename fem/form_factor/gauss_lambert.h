@@ -13,7 +13,7 @@ class GaussLambert final : public PairMethod {
 
  private:
   class Rays;
-  std::unique_ptr<Occlusion> occlusion() const override;
+  std::unique_ptr<PairOcclusion> occlusion() const override;
 
   VisibilitySampler visibility_;
 };

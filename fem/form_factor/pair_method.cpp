@@ -9,7 +9,7 @@ class PairMethod::ClusterPair {
  public:
   ClusterPair(const PairMethod& method, const ElementCluster& a, const ElementCluster& b) : method_(method), a_(a), b_(b) {}
 
-  void exchange(Index i, Index j, ExchangeSink& sink, Occlusion& occlusion, PairCounts& counts) {
+  void exchange(Index i, Index j, ExchangeSink& sink, PairOcclusion& occlusion, PairCounts& counts) {
     const PairIntegral unoccluded = method_.integrate_(i, j);
     if (unoccluded.facing == Facing::away) {
       ++counts.facing_away;
@@ -59,7 +59,7 @@ PairMethod::PairMethod(const FormFactorContext& context)
 
 PairCounts PairMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
   PairCounts counts;
-  const std::unique_ptr<Occlusion> work = occlusion();
+  const std::unique_ptr<PairOcclusion> work = occlusion();
   const auto within = [](const ElementBlock& block, const ElementCluster& cluster) {
     const auto begin = std::lower_bound(cluster.elements.begin(), cluster.elements.end(), block.first);
     return std::span(begin, std::lower_bound(begin, cluster.elements.end(), block.first + block.count));

@@ -19,6 +19,13 @@ struct DoubtfulPair {
   const std::vector<std::uint32_t>* among;  ///< all blockers that reach into it are among these; null: among all
 };
 
+/// What a method does with doubtful pairs, in one thread; it may hold memory for that.
+class PairOcclusion {
+ public:
+  virtual ~PairOcclusion() = default;
+  virtual ExchangeEntry operator()(const DoubtfulPair& pair, PairCounts& counts) = 0;
+};
+
 /// Methods that go from pair to pair, K_ij = K_ij,unoccluded V_ij.
 ///
 /// Orientation proves pairs dark; a shaft between two clusters of elements, or between the two elements, that nothing reaches into
@@ -31,13 +38,7 @@ class PairMethod : public FormFactorMethod {
  protected:
   explicit PairMethod(const FormFactorContext& context);
 
-  /// What one thread does with doubtful pairs; it may hold memory for that.
-  class Occlusion {
-   public:
-    virtual ~Occlusion() = default;
-    virtual ExchangeEntry operator()(const DoubtfulPair& pair, PairCounts& counts) = 0;
-  };
-  virtual std::unique_ptr<Occlusion> occlusion() const = 0;
+  virtual std::unique_ptr<PairOcclusion> occlusion() const = 0;  ///< for one thread
 
   const FormFactorContext& context() const { return context_; }
   const PairIntegrator& integrator() const { return integrate_; }

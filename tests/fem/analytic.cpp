@@ -105,6 +105,25 @@ TEST(Analytic, form_factors_past_a_screen_are_the_exact_ones_to_the_tolerance) {
     }
 }
 
+// Coarse tolerances leave pairs to its rays, fine ones hand them over.
+TEST(Hybrid, samples_what_may_be_noisy_and_subtracts_the_rest) {
+  for (const auto& [corner, exact] : {std::pair(Vec3(0, 0, .5), 0.149868671774), std::pair(Vec3(.25, .25, .5), 0.099506294599)})
+    for (const double tolerance : {0.2, 1e-4}) {
+      Room room = plates_with_screen(corner);
+      const auto scene = room.finish();
+      const auto caster = raycast::make_ray_caster("brute", scene);
+      const auto method = make_form_factor_method("hybrid", {scene, room.patches, *caster, 1, tolerance, 16});
+      test::MatrixSink sink(2);
+      core::LocalRun run(1, 1);
+      const ElementBlock all{room.patches, 0, 2};
+      const PairCounts counts = method->exchange(all, all, sink, run.get());
+      EXPECT_EQ(counts.sampled, tolerance > 0.1 ? 1u : 0u);
+      EXPECT_EQ(counts.subtracted, tolerance > 0.1 ? 0u : 1u);
+      EXPECT_NEAR(sink.K(0, 1), exact, 4 * sink.error(0, 1));
+      EXPECT_LT(sink.error(0, 1), 2 * tolerance * 0.2);  // of the unoccluded part, and of what is hidden
+    }
+}
+
 // docs/truths.md 2.11, V5, with the inner cube turned: convex in convex, F(in, out) = 1, and rows of the outer sum to 1.
 TEST(Analytic, rows_of_a_closed_room_with_a_body_sum_to_one_to_the_tolerance) {
   for (const double tolerance : {1e-3, 1e-5}) {
