@@ -204,6 +204,18 @@ void add_view_factors(CLI::App& app, Command& chosen) {
       ->capture_default_str();
 }
 
+void add_compare_form_factors(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<CompareFormFactorsOptions>();
+  CLI::App* command = add_command<CompareFormFactorsOptions>(
+      app, "compare-form-factors", "Every form-factor method on one scene: error against the exact one, time, energy",
+      core::format("interflect compare-form-factors %s --element-size 0.15 -o out/methods", example_scene), compare_form_factors, options, chosen);
+  add_scene(*command, options->scene);
+  command->add_option("-o,--out", options->out, "Folder for the table and the plot")->required();
+  command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: that of solve")->check(Length());
+  command->add_option("--tolerance", options->tolerance, "Largest sum of a row's errors in the reference")->check(CLI::Range(1e-9, 0.5))
+      ->capture_default_str();
+}
+
 void add_info(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<InfoOptions>();
   add_scene(*add_command<InfoOptions>(app, "info", "What was read: surfaces, materials, flux, box in metres, repairs",
@@ -258,6 +270,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_validate(app, command);
   add_trace(app, command);
   add_view_factors(app, command);
+  add_compare_form_factors(app, command);
   add_info(app, command);
   add_check(app, command);
   try {

@@ -60,6 +60,12 @@ struct ViewFactorOptions {
   std::string groups;        ///< what the factors of a .csv are summed by; empty: by nothing
 };
 
+struct CompareFormFactorsOptions {
+  std::filesystem::path scene, out;
+  double element_size = 0;   ///< 0: as a solve has it
+  double tolerance = 1e-4;   ///< of the reference's rows
+};
+
 struct CheckOptions {
   std::filesystem::path scene;
 };

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "tests/apps/program.h"
@@ -85,6 +86,24 @@ TEST(ViewFactors, serve_a_solve_of_the_same_geometry_and_no_other) {
   const Outcome other = interflect({"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "-o", folder / "other", "--factors", factors});
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(contains(other.err, "F.h5")) << other.err;
+}
+
+TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
+  const TemporaryFolder folder;
+  const Outcome run = interflect({"compare-form-factors", shipped_scene("cube"), "--element-size", "0.5", "-o", folder / "out", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto methods = nlohmann::json::parse(run.out).at("methods");
+  std::set<std::string> names;
+  for (const auto& m : methods) {
+    names.insert(m.at("method").get<std::string>());
+    if (m.at("method") == "analytic" && m.at("setting") == "tolerance 0.001") {
+      EXPECT_LT(m.at("largest_row_error"), 1e-3);
+    }
+    EXPECT_GE(m.at("largest_row_error"), m.at("mean_row_error").get<double>() * (1 - 1e-12));
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"analytic", "area-to-area", "gauss-lambert", "global-lines", "hemicube", "hemicube-max",
+                                          "hemicube-midpoint", "hemisphere-rays", "hybrid", "single-plane"}));
+  EXPECT_TRUE(contains(read_file(folder / "out/form_factors.csv"), "method,setting,seconds,"));
 }
 
 // What a stopped run has written is not computed again, and the result is that of a run that was not stopped.

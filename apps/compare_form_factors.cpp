@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "apps/read_scene.h"
+#include "apps/table.h"
+#include "core/format.h"
+#include "fem/method_comparison.h"
+#include "fem/radiosity.h"
+#include "results/csv.h"
+#include "results/atomic_file.h"
+#include "results/output_directory.h"
+#include "results/record.h"
+#ifdef INTERFLECT_WITH_VTK
+#include "results/image_file.h"
+#include "visual/plot.h"
+#endif
+
+namespace interflect::apps {
+namespace {
+
+using fem::MethodScore;
+
+std::string csv_of(const std::vector<MethodScore>& scores) {
+  results::Csv csv;
+  for (const char* heading : {"method", "setting", "seconds", "largest_row_error", "mean_row_error", "stated_row_error", "energy_error"})
+    csv.text(heading);
+  csv.end_line();
+  for (const MethodScore& s : scores) {
+    csv.text(s.method).text(s.setting).number(s.seconds).number(s.largest_row_error).number(s.mean_row_error);
+    csv.number(s.stated_row_error).number(s.energy_error).end_line();
+  }
+  return csv.str();
+}
+
+std::string table_of(const std::vector<MethodScore>& scores) {
+  Table table({"method", "setting", "time s", "largest row error", "mean", "stated", "energy"});
+  for (const MethodScore& s : scores)
+    table.add({s.method, s.setting, core::format("%.3g", s.seconds), core::format("%.2g", s.largest_row_error),
+               core::format("%.2g", s.mean_row_error), core::format("%.2g", s.stated_row_error), core::format("%.2g", s.energy_error)});
+  return table.text();
+}
+
+results::Record record_of(const std::vector<MethodScore>& scores, Index elements) {
+  results::Record::List list;
+  for (const MethodScore& s : scores)
+    list.push_back(results::Record()
+                       .add("method", s.method)
+                       .add("setting", s.setting)
+                       .add("seconds", s.seconds)
+                       .add("largest_row_error", s.largest_row_error)
+                       .add("mean_row_error", s.mean_row_error)
+                       .add("stated_row_error", s.stated_row_error)
+                       .add("energy_error", s.energy_error));
+  results::Record record;
+  return record.add("elements", static_cast<std::int64_t>(elements)).add("methods", std::move(list));
+}
+
+#ifdef INTERFLECT_WITH_VTK
+/// Mean row error against time, a curve a method; the reference has no error of its own.
+void write_plot(const std::filesystem::path& file, const std::vector<MethodScore>& scores) {
+  visual::Plot plot{"form factors: error against time", "time [s]", "mean over rows of sum_j |F_ij - exact|", {}};
+  for (std::size_t k = 0; k + 1 < scores.size(); ++k) {
+    const MethodScore& s = scores[k];
+    if (plot.curves.empty() || plot.curves.back().name != s.method) plot.curves.push_back({s.method, {}, {}});
+    plot.curves.back().x.push_back(s.seconds);
+    plot.curves.back().y.push_back(s.mean_row_error);
+  }
+  results::write_png(file, visual::plot_picture(plot));
+}
+#endif
+
+}  // namespace
+
+ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const CommonOptions& common, Run& run) {
+  const scene::Scene scene = read_and_note(options.scene);
+  fem::RadiositySettings settings;
+  settings.element_size = options.element_size;
+  const mesh::ElementMesh mesh = fem::elements_of(scene, settings);
+  const results::OutputDirectory folder(options.out);
+  const bool talk = !common.json && !common.quiet;
+  if (talk) std::printf("%s elements, bounding box %s\n", core::format_count(static_cast<unsigned long long>(mesh.size())).c_str(), box_text(scene).c_str());
+  std::fflush(stdout);
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  const auto told = [&](const MethodScore& s) {
+    if (!talk) return;
+    std::printf("%s, %s: %.3g s, mean row error %.2g\n", s.method.c_str(), s.setting.c_str(), s.seconds, s.mean_row_error);
+    std::fflush(stdout);
+  };
+  const std::vector<MethodScore> scores = fem::compare_methods({scene, mesh.patches(), *rays, run.seed}, options.tolerance, run, told);
+  results::write_atomically(options.out / "form_factors.csv", csv_of(scores));
+#ifdef INTERFLECT_WITH_VTK
+  write_plot(options.out / "form_factors.png", scores);
+#endif
+  if (common.json) std::printf("%s\n", results::json_text(record_of(scores, mesh.size())).c_str());
+  if (talk) std::printf("\n%s\nwritten to %s\n", table_of(scores).c_str(), options.out.string().c_str());
+  return success;
+}
+
+}  // namespace interflect::apps

@@ -1,0 +1,127 @@
+#include "fem/method_comparison.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/format.h"
+#include "fem/assembly.h"
+#include "fem/row_errors.h"
+
+namespace interflect::fem {
+
+namespace {
+
+/// One setting of one method.
+struct Trial {
+  std::string method, setting;
+  std::function<void(FormFactorContext&)> set;
+};
+
+Trial with_tolerance(const std::string& method, double tolerance) {
+  return {method, core::format("tolerance %g", tolerance), [=](FormFactorContext& c) { c.tolerance = tolerance; }};
+}
+Trial with_rays(const std::string& method, int rays) {
+  return {method, core::format("rays %d", rays), [=](FormFactorContext& c) { c.visibility_rays = rays; }};
+}
+Trial with_resolution(const std::string& method, int resolution) {
+  return {method, core::format("resolution %d", resolution), [=](FormFactorContext& c) { c.resolution = resolution; }};
+}
+Trial with_samples(const std::string& method, std::uint64_t samples) {
+  return {method, core::format("samples %llu", static_cast<unsigned long long>(samples)), [=](FormFactorContext& c) { c.samples = samples; }};
+}
+
+/// A ladder for every method that is known; one that has none here runs as it is.
+std::vector<Trial> trials() {
+  std::vector<Trial> out;
+  for (const std::string& name : form_factor_names()) {
+    if (name == "analytic")
+      for (const double t : {0.1, 1e-2, 1e-3}) out.push_back(with_tolerance(name, t));
+    else if (name == "hybrid")
+      for (const double t : {0.5, 0.1}) out.push_back(with_tolerance(name, t));
+    else if (name == "gauss-lambert")
+      for (const int rays : {4, 16, 64, 256}) out.push_back(with_rays(name, rays));
+    else if (name.rfind("hemicube", 0) == 0 || name == "single-plane")
+      for (const int resolution : {32, 128, 512}) out.push_back(with_resolution(name, resolution));
+    else if (name == "area-to-area")
+      for (const std::uint64_t samples : {128, 1024}) out.push_back(with_samples(name, samples));
+    else if (name == "hemisphere-rays")
+      for (const std::uint64_t samples : {256, 4096, 65536}) out.push_back(with_samples(name, samples));
+    else if (name == "global-lines")
+      for (const std::uint64_t samples : {10'000, 100'000, 1'000'000}) out.push_back(with_samples(name, samples));
+    else
+      out.push_back({name, "", [](FormFactorContext&) {}});
+  }
+  return out;
+}
+
+std::vector<double> areas_of(std::span<const scene::SurfacePatch> patches) {
+  std::vector<double> areas;
+  for (const scene::SurfacePatch& patch : patches) areas.push_back(patch.area);
+  return areas;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void judge(const DenseSymmetric& K, const DenseSymmetric& exact, MethodScore& score) {
+  const Index n = K.size();
+  double area = 0;
+  for (Index a = 0; a < n; ++a) {
+    double off = 0, sum = 0;
+    for (Index b = 0; b < n; ++b) {
+      const double difference = K.entry(a, b) - exact.entry(a, b);
+      off += std::abs(difference);
+      sum += difference;
+    }
+    const double of_row = K.gram()[static_cast<std::size_t>(a)];
+    score.largest_row_error = std::max(score.largest_row_error, off / of_row);
+    score.energy_error = std::max(score.energy_error, std::abs(sum) / of_row);
+    score.mean_row_error += off;
+    area += of_row;
+  }
+  score.mean_row_error /= area;
+}
+
+}  // namespace
+
+std::vector<MethodScore> compare_methods(const FormFactorContext& context, double reference_tolerance, Run& run,
+                                         const std::function<void(const MethodScore&)>& scored) {
+  const std::vector<double> areas = areas_of(context.patches);
+  DenseSymmetric exact(areas);
+  auto start = std::chrono::steady_clock::now();
+  const auto analytic = [&](double relative) {
+    FormFactorContext fine = context;
+    fine.tolerance = relative;
+    return make_form_factor_method("analytic", fine);
+  };
+  const ToleranceReport reference = assemble_to_tolerance(analytic, reference_tolerance, context.patches, exact, run);
+  MethodScore last{"analytic", core::format("rows to %g: the reference", reference_tolerance), seconds_since(start), 0, 0, 0, 0, {}};
+  last.stated_row_error = *std::max_element(reference.row_errors.begin(), reference.row_errors.end());
+  last.pairs = reference.pairs;
+
+  std::vector<MethodScore> scores;
+  for (const Trial& trial : trials()) {
+    run.throw_if_stopped("comparison");
+    FormFactorContext settings = context;
+    trial.set(settings);
+    DenseSymmetric K(areas);
+    RowErrors errors(K, areas);
+    MethodScore score{trial.method, trial.setting, 0, 0, 0, 0, 0, {}};
+    start = std::chrono::steady_clock::now();
+    const auto method = make_form_factor_method(trial.method, settings);
+    score.pairs = assemble(*method, context.patches, errors, run);
+    score.seconds = seconds_since(start);
+    const std::vector<double> stated = errors.all();
+    score.stated_row_error = *std::max_element(stated.begin(), stated.end());
+    judge(K, exact, score);
+    scored(score);
+    scores.push_back(score);
+  }
+  scored(last);
+  scores.push_back(last);
+  return scores;
+}
+
+}  // namespace interflect::fem
