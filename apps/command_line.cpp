@@ -216,6 +216,23 @@ void add_compare_form_factors(CLI::App& app, Command& chosen) {
       ->capture_default_str();
 }
 
+void add_exchange(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<ExchangeOptions>();
+  options->settings.form_factors = "analytic";
+  CLI::App* command = add_command<ExchangeOptions>(
+      app, "exchange", "Net radiative exchange of grey surfaces with temperatures or heat fluxes",
+      "interflect exchange data/scenes/oven.json -o out/oven --environment 293.15", exchange, options, chosen);
+  add_scene(*command, options->scene);
+  command->add_option("-o,--out", options->out, "Folder for exchange.csv and exchange.json")->required();
+  command->add_option("--environment", options->environment, "Temperature of what openings look at [K]")->check(CLI::Range(0.0, 1e5))
+      ->capture_default_str();
+  command->add_option("--element-size", options->settings.element_size, "Longest edge of an element [m]; default: that of solve")->check(Length());
+  command->add_option("--form-factors", options->settings.form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
+      ->capture_default_str();
+  command->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
+      ->check(CLI::Range(1e-14, 0.5))->capture_default_str();
+}
+
 void add_info(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<InfoOptions>();
   add_scene(*add_command<InfoOptions>(app, "info", "What was read: surfaces, materials, flux, box in metres, repairs",
@@ -271,6 +288,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_trace(app, command);
   add_view_factors(app, command);
   add_compare_form_factors(app, command);
+  add_exchange(app, command);
   add_info(app, command);
   add_check(app, command);
   try {

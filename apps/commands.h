@@ -17,6 +17,7 @@ ExitStatus validate(const ValidateOptions& options, const CommonOptions& common,
 ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& run);
 ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run);
 ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const CommonOptions& common, Run& run);
+ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run);
 ExitStatus info(const InfoOptions& options, const CommonOptions& common, Run& run);
 ExitStatus check(const CheckOptions& options, const CommonOptions& common, Run& run);
 

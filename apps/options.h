@@ -66,6 +66,12 @@ struct CompareFormFactorsOptions {
   double tolerance = 1e-4;   ///< of the reference's rows
 };
 
+struct ExchangeOptions {
+  std::filesystem::path scene, out;
+  fem::RadiositySettings settings;
+  double environment = 0;  ///< [K]
+};
+
 struct CheckOptions {
   std::filesystem::path scene;
 };

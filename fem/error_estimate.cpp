@@ -146,7 +146,9 @@ void estimate_errors(RadiositySolution& s, const ErrorSources& from, int channel
     largest_reflectance = std::max(largest_reflectance, s.reflectance[i].max());
     largest_radiosity = max(largest_radiosity, s.radiosity[i]);
   }
-  const Spectrum solver = s.solver.residual() / (1.0 - largest_reflectance) * largest_radiosity;
+  // What only passes on has no such bound of its own: the mean, which is below 1, stands for it.
+  const double largest = largest_reflectance < 1 ? largest_reflectance : area_mean(s.mesh, s.reflectance).max();
+  const Spectrum solver = s.solver.residual() / (1.0 - largest) * largest_radiosity;
   const std::vector<Spectrum> neighbours = neighbour_errors(s, from.K, run);
   s.field_error.resize(s.radiosity.size());
   for (std::size_t i = 0; i < s.radiosity.size(); ++i) {

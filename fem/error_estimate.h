@@ -26,7 +26,7 @@ struct ErrorSources {
 /// plus  quadrature: tolerance times H, over 1 - mean rho for all bounces;
 /// plus  closure, in closed scenes: |1 - row sum_i| beyond twice its standard error, times the mean radiosity, and the same of the
 ///       mean row sum times rho / (1 - rho), for later bounces: rows that all lack d make H lack d B / (1 - rho);
-/// plus  solver: residual times max B / (1 - max rho).
+/// plus  solver: residual times max B / (1 - max rho), mean rho where max rho is 1.
 ///
 /// Noise.  With the standard errors e_ij of K's entries, one bounce off B makes  var_i = sum_j (e_ij B_j / A_i)²  of its own in
 /// each element.  Later bounces see means over many elements, and add one and the same deviation to all,

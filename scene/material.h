@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/spectrum.h"
@@ -10,12 +11,22 @@ namespace interflect::scene {
 
 enum class Sides : std::uint8_t { front, both };
 
+inline constexpr double stefan_boltzmann = 5.670374419e-8;  ///< sigma [W/(m² K^4)], exact since 2019 to these digits
+
+/// What a grey surface exchanges heat by: its reflectance is 1 - emissivity.
+struct Thermal {
+  double emissivity;                  ///< in (0, 1], of all wavelengths and directions together
+  std::optional<double> temperature;  ///< [K]
+  double heat_flux = 0;               ///< net, leaving [W/m²]; of meaning where there is no temperature
+};
+
 /// A diffuse material.  A side that is not among `sides` is black: it absorbs what it receives.
 struct Material {
   std::string name;
   Spectrum reflectance;  ///< rho, 0 <= rho < 1
   Spectrum exitance;     ///< E [W/m² | lm/m²], emitted by the front side only
   Sides sides = Sides::front;
+  std::optional<Thermal> thermal = std::nullopt;
 
   bool active(Side side) const { return side == Side::front || sides == Sides::both; }
   Spectrum reflectance_of(Side side) const { return active(side) ? reflectance : Spectrum::zero(); }

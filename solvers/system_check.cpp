@@ -13,14 +13,17 @@ void require_solvable(const System& system) {
   const std::span<const double> G = system.K.gram();
   if (static_cast<Index>(G.size()) != n || system.e.rows() != n || rho.rows() != n || rho.cols() != system.e.cols())
     throw core::PreconditionError("solve: K, R and e have different shapes");
+  for (Index c = 0; c < rho.cols(); ++c)
+    if (n > 0 && (rho.col(c).array() >= 1).all())
+      throw core::InputError("every reflectance is 1: where nothing is absorbed there is no answer");
   for (Index a = 0; a < n; ++a) {
     if (const double area = G[static_cast<std::size_t>(a)]; !(area > 0) || !std::isfinite(area))
       throw core::InputError(
           core::format("unknown %td: the area of its element is %g m2, a positive one expected", a, area));
     for (Index c = 0; c < rho.cols(); ++c) {
       const double r = rho(a, c);
-      if (!(r >= 0 && r < 1))
-        throw core::InputError(core::format("reflectance %g of unknown %td: 0 <= reflectance < 1 expected", r, a));
+      if (!(r >= 0 && r <= 1))
+        throw core::InputError(core::format("reflectance %g of unknown %td: 0 <= reflectance <= 1 expected", r, a));
       if (!std::isfinite(system.e(a, c)))
         throw core::InputError(core::format("exitance %g of unknown %td: a finite number expected", system.e(a, c), a));
     }

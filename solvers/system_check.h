@@ -4,7 +4,8 @@
 
 namespace interflect::solvers {
 
-/// @throws core::InputError         reflectance outside 0 <= rho < 1; an exitance that is not a finite number; an
+/// A reflectance of 1, of what only passes on what it receives, has an answer where others absorb.
+/// @throws core::InputError         reflectance outside 0 <= rho <= 1, or 1 everywhere; an exitance that is not a finite number; an
 /// unknown
 ///                                  whose entry of G is not a positive number: an element without area
 /// @throws core::PreconditionError  shapes of K, R and e that do not fit

@@ -37,7 +37,33 @@ void require_known(const JsonNode& node) {
   }
   if (node.has("transmittance"))
     node.at("transmittance").fail("this version does not know transmittance: materials are opaque");
-  node.only({"type", "reflectance", "exitance", "flux", "sides"});
+  node.only({"type", "reflectance", "exitance", "flux", "sides", "emissivity", "temperature", "heat_flux"});
+}
+
+/// A grey surface that exchanges heat: 1 - emissivity is its reflectance, and what it emits its temperature says.
+Thermal read_thermal(const JsonNode& node) {
+  for (const char* key : {"reflectance", "exitance", "flux"})
+    if (node.has(key)) node.at(key).fail("emissivity and " + std::string(key) + " exclude each other: give one");
+  Thermal thermal{node.at("emissivity").number_in(0, 1), std::nullopt, 0};
+  if (thermal.emissivity == 0) node.at("emissivity").fail("an emissivity of 0 is not above 0: every surface absorbs some radiation");
+  if (node.has("temperature") == node.has("heat_flux")) node.fail("a temperature [K] or a heat_flux [W/m2] is expected beside an emissivity, one of them");
+  if (node.has("heat_flux")) {
+    thermal.heat_flux = node.at("heat_flux").number();
+    return thermal;
+  }
+  thermal.temperature = node.at("temperature").number();
+  if (*thermal.temperature < 0) node.at("temperature").fail("below absolute zero: kelvin are expected");
+  return thermal;
+}
+
+/// As a solve sees it: grey, and emitting by Stefan and Boltzmann's law.
+void set_thermal(const Thermal& thermal, int channels, Material& material) {
+  const double t = thermal.temperature.value_or(0);
+  for (int c = 0; c < channels; ++c) {
+    material.reflectance[c] = 1 - thermal.emissivity;
+    material.exitance[c] = thermal.emissivity * stefan_boltzmann * t * t * t * t;
+  }
+  material.thermal = thermal;
 }
 
 /// Names that an EXR picture can hold beside each other: it has a NAME.error for every NAME, and r becomes R.
@@ -105,7 +131,12 @@ MaterialLibrary::Entry MaterialLibrary::read_entry(const std::string& name, cons
   require_known(node);
   Entry entry;
   entry.material.name = name;
-  entry.material.reflectance = read_checked(node.at("reflectance"), channels, require_reflectance);
+  if (node.has("emissivity"))
+    set_thermal(read_thermal(node), channels, entry.material);
+  else
+    entry.material.reflectance = read_checked(node.at("reflectance"), channels, require_reflectance);
+  for (const char* key : {"temperature", "heat_flux"})
+    if (node.has(key) && !node.has("emissivity")) node.at(key).fail("an emissivity is expected beside it");
   if (node.has("exitance") && node.has("flux")) node.fail("exitance and flux exclude each other: give one");
   if (node.has("exitance")) entry.material.exitance = read_checked(node.at("exitance"), channels, require_emission);
   if (node.has("flux")) entry.flux = read_checked(node.at("flux"), channels, require_emission);

@@ -88,6 +88,27 @@ TEST(ViewFactors, serve_a_solve_of_the_same_geometry_and_no_other) {
   EXPECT_TRUE(contains(other.err, "F.h5")) << other.err;
 }
 
+// What the heater gives, less what the walls take, goes into the load and out of the door.
+TEST(Exchange, of_the_oven_balances) {
+  const TemporaryFolder folder;
+  const Outcome run = interflect({"exchange", shipped_scene("oven"), "-o", folder / "out", "--environment", "293.15", "--element-size", "0.2", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto said = nlohmann::json::parse(run.out);
+  const double net = said.at("net_flux_W"), out = said.at("to_environment_W");
+  EXPECT_GT(net, 1000);
+  EXPECT_NEAR(net / out, 1, 0.02);
+  for (const auto& s : said.at("surfaces")) {
+    if (s.at("name") == "heater") {
+      EXPECT_GT(s.at("temperature"), 600);
+      EXPECT_GT(s.at("temperature_error"), 0);
+    }
+  }
+  EXPECT_TRUE(contains(read_file(folder / "out/exchange.csv"), "name,area,emissivity,temperature,temperature_error,heat_flux"));
+  const Outcome lit = interflect({"exchange", shipped_scene("cube"), "-o", folder / "lit"});
+  EXPECT_EQ(lit.status, 2);
+  EXPECT_TRUE(contains(lit.err, "an emissivity with a temperature or a heat flux expected")) << lit.err;
+}
+
 TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
   const TemporaryFolder folder;
   const Outcome run = interflect({"compare-form-factors", shipped_scene("cube"), "--element-size", "0.5", "-o", folder / "out", "--json"});

@@ -105,7 +105,10 @@ TEST_P(EverySolver, takes_up_a_start_and_none_alike) {
 TEST_P(EverySolver, refuses_what_is_no_reflectance_or_not_a_number) {
   const FullOperator K = random_operator(10, 19);
   const ColumnMatrix good_rho = ColumnMatrix::Constant(10, 2, 0.5), good_e = ColumnMatrix::Ones(10, 2);
-  for (const double bad : {1.0, -0.1, 2.0, not_a_number, std::numeric_limits<double>::infinity()}) {
+  ColumnMatrix mirrors = good_rho, start = good_e;
+  mirrors.col(1).setOnes();
+  EXPECT_THROW(solve(GetParam(), {K, Reflection(mirrors), good_e}, start), core::InputError) << "nothing absorbs";
+  for (const double bad : {1.1, -0.1, 2.0, not_a_number, std::numeric_limits<double>::infinity()}) {
     ColumnMatrix rho = good_rho, x = good_e;
     rho(7, 1) = bad;
     EXPECT_THROW(solve(GetParam(), {K, Reflection(rho), good_e}, x), core::InputError) << bad;

@@ -1,0 +1,86 @@
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "apps/read_scene.h"
+#include "apps/table.h"
+#include "core/format.h"
+#include "fem/thermal_exchange.h"
+#include "results/atomic_file.h"
+#include "results/csv.h"
+#include "results/output_directory.h"
+#include "results/record.h"
+
+namespace interflect::apps {
+namespace {
+
+using fem::ThermalExchange;
+using fem::ThermalSurface;
+
+std::string csv_of(const ThermalExchange& exchange) {
+  results::Csv csv;
+  for (const char* heading : {"name", "area", "emissivity", "temperature", "temperature_error", "heat_flux", "heat_flux_error", "flux", "radiosity",
+                              "irradiance"})
+    csv.text(heading);
+  csv.end_line();
+  for (const ThermalSurface& s : exchange.surfaces) {
+    csv.text(s.name).number(s.area).number(s.emissivity).number(s.temperature).number(s.temperature_error).number(s.heat_flux);
+    csv.number(s.heat_flux_error).number(s.heat_flux * s.area).number(s.radiosity).number(s.irradiance).end_line();
+  }
+  return csv.str();
+}
+
+/// "293.15" of what was given, "293.15 +- 0.2" of what was found.
+std::string with_error(double value, double error, bool found) {
+  return found ? core::format("%.6g +- %.2g", value, error) : core::format("%.6g", value);
+}
+
+std::string table_of(const ThermalExchange& exchange) {
+  Table table({"surface", "area m2", "emissivity", "T K", "q W/m2", "Q W"});
+  for (const ThermalSurface& s : exchange.surfaces)
+    table.add({s.name, core::format("%.4g", s.area), core::format("%.4g", s.emissivity), with_error(s.temperature, s.temperature_error, s.flux_given),
+               with_error(s.heat_flux, s.heat_flux_error, !s.flux_given), core::format("%.6g", s.heat_flux * s.area)});
+  return table.text();
+}
+
+results::Record record_of(const ThermalExchange& exchange, const ExchangeOptions& options) {
+  results::Record::List surfaces;
+  for (const ThermalSurface& s : exchange.surfaces)
+    surfaces.push_back(results::Record()
+                           .add("name", s.name)
+                           .add("area", s.area)
+                           .add("emissivity", s.emissivity)
+                           .add("temperature", s.temperature)
+                           .add("temperature_error", s.temperature_error)
+                           .add("heat_flux", s.heat_flux)
+                           .add("heat_flux_error", s.heat_flux_error)
+                           .add("heat_flux_given", s.flux_given)
+                           .add("radiosity", s.radiosity)
+                           .add("irradiance", s.irradiance));
+  results::Record record;
+  record.add("scene", options.scene.string())
+      .add("environment_K", options.environment)
+      .add("elements", static_cast<std::int64_t>(exchange.solution.mesh.size()))
+      .add("net_flux_W", exchange.emitted)
+      .add("to_environment_W", exchange.to_environment)
+      .add("surfaces", std::move(surfaces));
+  return record;
+}
+
+}  // namespace
+
+ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run) {
+  const scene::Scene scene = read_and_note(options.scene);
+  const results::OutputDirectory folder(options.out);
+  const ThermalExchange found = fem::solve_exchange(scene, options.settings, options.environment, run);
+  const results::Record record = record_of(found, options);
+  results::write_atomically(options.out / "exchange.csv", csv_of(found));
+  results::write_json(options.out / "exchange.json", record);
+  if (common.json)
+    std::printf("%s\n", results::json_text(record).c_str());
+  else if (!common.quiet)
+    std::printf("%s\nsum of Q %.6g W; to the environment %.6g W, by rays\nwritten to %s\n", table_of(found).c_str(), found.emitted, found.to_environment,
+                options.out.string().c_str());
+  return found.solution.solver.converged() ? success : not_met;
+}
+
+}  // namespace interflect::apps

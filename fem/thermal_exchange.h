@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fem/radiosity.h"
+
+namespace interflect::fem {
+
+/// Net radiative exchange of a side of a surface, means over its area.
+struct ThermalSurface {
+  std::string name;
+  double area = 0;            ///< [m²]
+  double emissivity = 0;      ///< hemispherical, total; the surface is grey: absorptance and emissivity are equal
+  double temperature = 0;     ///< [K]: given, or found from the heat flux (of the mean of T^4)
+  double heat_flux = 0;       ///< q [W/m²], net, leaving: found, or given
+  double radiosity = 0;       ///< B [W/m²]
+  double irradiance = 0;      ///< H [W/m²]
+  bool flux_given = false;    ///< else the temperature
+  double temperature_error = 0, heat_flux_error = 0;  ///< of what was found: estimated bound + 1.96 standard errors; 0 of what was given
+};
+
+struct ThermalExchange {
+  std::vector<ThermalSurface> surfaces;
+  double emitted = 0;         ///< sum q A over the surfaces, net [W]: what goes to the environment
+  double to_environment = 0;  ///< the same found from what leaves through openings, and onto black backs [W]
+  RadiositySolution solution;
+};
+
+/// Grey diffuse surfaces, each with a temperature or a net heat flux [Gebhart 1961; Hottel, Sarofim 1967]:
+///
+///   B = e sigma T^4 + (1 - e) H    where T is given
+///   B = q + H                      where q = B - H is,   and then   sigma T^4 = H + q / e
+///
+/// The environment is black and at `environment` [K]: what surfaces see of it sends them sigma T_0^4.  All of it is radiosity of
+/// exitances e sigma (T^4 - T_0^4) and q in a cold environment, shifted by sigma T_0^4, since a uniform field is a solution.
+/// @param settings  as of a solve; elements as there
+/// @throws core::InputError  a scene of more than one channel, a photometric one, a material without `emissivity`, or heat fluxes alone in a
+///                           closed scene, which have no answer
+ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment, Run& run);
+
+}  // namespace interflect::fem
