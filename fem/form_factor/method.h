@@ -20,8 +20,8 @@ struct ElementBlock {
 /// One pair's exchange and what is known of its error.
 struct ExchangeEntry {
   double K = 0;               ///< A_a F_ab [m²], 0 <= K <= min(A_a, A_b)
-  double standard_error = 0;  ///< of sampled visibility alone; 0 where nothing was sampled [m²]
-  double bound = 0;           ///< estimated bound on the rest: quadrature [m²]
+  double standard_error = 0;  ///< of what was sampled; 0 where nothing was [m²]
+  double bound = 0;           ///< estimated bound on the rest: quadrature, aliasing, one view point [m²]
 };
 
 /// Where entries of K go.  A pair is written once (a <= b or as asked for); the sink keeps K symmetric.
