@@ -184,7 +184,7 @@ void add_trace(CLI::App& app, Command& chosen) {
 void add_view_factors(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ViewFactorOptions>();
   CLI::App* command = add_command<ViewFactorOptions>(
-      app, "view-factors", "View factors of a mesh or scene, with an error on each", "interflect view-factors room.stl --units mm -o F.h5",
+      app, "view-factors", "View factors of a mesh or scene, with an error on each", core::format("interflect view-factors %s -o F.h5 --element-size 0.1", example_scene),
       view_factors, options, chosen);
   command->add_option("FILE", options->input, "OBJ, PLY, STL, glTF, VTU, VTP, View3D's .vs3, or a scene (.json)")->required();
   command->add_option("-o,--out", options->out, "F.h5, F.npz, F.mtx or F.csv; the others are made from an .h5 beside them")->required();

@@ -14,6 +14,7 @@
 #include "results/factor_export.h"
 #include "results/factor_store.h"
 #include "results/factors.h"
+#include "results/output_directory.h"
 #include "results/record.h"
 #include "scene/geometry_file.h"
 
@@ -187,7 +188,8 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
   };
   make(options.tolerance);  // an unknown name is told before a file is begun
   const results::FactorStoreKey key{results::geometry_digest(geometry.scene, elements), results::json_text(settings_of(options, run.seed))};
-  const std::filesystem::path file = store_of(options);
+  const std::filesystem::path file = store_of(options), folder = options.out.parent_path();
+  const results::OutputDirectory made(folder.empty() ? "." : folder);
   fem::ToleranceReport report;
   if (const auto errors = row_errors_if_there(file, key)) {
     if (talk) std::printf("%s has them already\n", file.string().c_str());

@@ -21,10 +21,10 @@ std::vector<double> areas_of(std::span<const scene::SurfacePatch> patches) {
   return areas;
 }
 
-std::vector<Index> rows_above(double tolerance, const RowErrors& errors, Index n) {
+std::vector<Index> rows_above(double tolerance, std::span<const double> errors) {
   std::vector<Index> rows;
-  for (Index a = 0; a < n; ++a)
-    if (errors.of(a) > tolerance) rows.push_back(a);
+  for (std::size_t a = 0; a < errors.size(); ++a)
+    if (errors[a] > tolerance) rows.push_back(static_cast<Index>(a));
   return rows;
 }
 
@@ -50,6 +50,27 @@ PairCounts assemble_rows_again(const FormFactorMethod& method, std::span<const I
   });
   return total;
 }
+
+class SinkAssembly final : public RowAssembly {
+ public:
+  SinkAssembly(std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run)
+      : patches_(patches), run_(run), areas_(areas_of(patches)), errors_(sink, areas_) {}
+
+  void everything(const FormFactorMethod& method) override { counts_ += assemble(method, patches_, errors_, run_); }
+  void again(const FormFactorMethod& method, std::span<const Index> rows) override {
+    errors_.count_afresh(rows);
+    counts_ += assemble_rows_again(method, rows, patches_, errors_, run_);
+  }
+  std::vector<double> row_errors() const override { return errors_.all(); }
+  PairCounts counts() const override { return counts_; }
+
+ private:
+  std::span<const scene::SurfacePatch> patches_;
+  Run& run_;
+  std::vector<double> areas_;
+  RowErrors errors_;
+  PairCounts counts_;
+};
 
 }  // namespace
 
@@ -89,27 +110,30 @@ void RowErrors::count_afresh(std::span<const Index> rows) {
 
 double entry_tolerance(double of_rows) { return std::min(0.1, 4 * of_rows); }
 
-ToleranceReport assemble_to_tolerance(const std::function<std::unique_ptr<FormFactorMethod>(double)>& make, double tolerance,
-                                      std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
-  const std::vector<double> areas = areas_of(patches);
-  const auto n = static_cast<Index>(patches.size());
-  RowErrors errors(sink, areas);
+ToleranceReport until_rows_meet(double tolerance, const MethodMaker& make, RowAssembly& assembly) {
   ToleranceReport report;
   double relative = entry_tolerance(tolerance);
   std::unique_ptr<FormFactorMethod> method = make(relative);
-  report.pairs = assemble(*method, patches, errors, run);
+  assembly.everything(*method);
+  report.row_errors = assembly.row_errors();
   report.passes = 1;
-  std::vector<Index> rows = rows_above(tolerance, errors, n);
+  std::vector<Index> rows = rows_above(tolerance, report.row_errors);
   while (!rows.empty() && report.passes < most_passes && method->granularity() == FormFactorMethod::Granularity::pair) {
     method = make(relative *= 0.25);
-    errors.count_afresh(rows);
-    report.pairs += assemble_rows_again(*method, rows, patches, errors, run);
+    assembly.again(*method, rows);
+    report.row_errors = assembly.row_errors();
     ++report.passes;
-    rows = rows_above(tolerance, errors, n);
+    rows = rows_above(tolerance, report.row_errors);
   }
-  report.row_errors = errors.all();
+  report.pairs = assembly.counts();
   report.met = rows.empty();
   return report;
+}
+
+ToleranceReport assemble_to_tolerance(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches,
+                                      ExchangeSink& sink, Run& run) {
+  SinkAssembly assembly(patches, sink, run);
+  return until_rows_meet(tolerance, make, assembly);
 }
 
 }  // namespace interflect::fem

@@ -46,6 +46,20 @@ struct ToleranceReport {
   bool met = false;                ///< max_a e_a <= tolerance
 };
 
+using MethodMaker = std::function<std::unique_ptr<FormFactorMethod>(double relative_tolerance)>;
+
+/// Where entries are computed to, as `until_rows_meet` drives it.
+class RowAssembly {
+ public:
+  virtual ~RowAssembly() = default;
+  virtual void everything(const FormFactorMethod& method) = 0;
+  virtual void again(const FormFactorMethod& method, std::span<const Index> rows) = 0;
+  virtual std::vector<double> row_errors() const = 0;
+  virtual PairCounts counts() const = 0;
+};
+/// Computes everything, and again the rows whose errors are above the tolerance, to a quarter each time, six times at most.
+ToleranceReport until_rows_meet(double tolerance, const MethodMaker& make, RowAssembly& assembly);
+
 /// All entries with max_a e_a <= tolerance.
 ///
 /// Entries are first computed to a relative tolerance that makes rows meet it (sum_b F_ab <= 1).  Rows that do not, because some of their
@@ -53,7 +67,7 @@ struct ToleranceReport {
 /// there as before, which is cautious.  Only pair methods can be asked for rows again; of others the report says what came out.
 /// @param make  the method to a relative tolerance
 /// @throws core::Interrupted
-ToleranceReport assemble_to_tolerance(const std::function<std::unique_ptr<FormFactorMethod>(double)>& make, double tolerance,
+ToleranceReport assemble_to_tolerance(const MethodMaker& make, double tolerance,
                                       std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run);
 
 }  // namespace interflect::fem

@@ -10,8 +10,6 @@ namespace interflect::fem {
 
 namespace {
 
-constexpr int most_passes = 6;
-
 double error_of(const ExchangeEntry& entry) { return entry.bound + normal_95 * entry.standard_error; }
 
 /// Which elements a tile holds.
@@ -81,12 +79,12 @@ class WholeSink final : public ExchangeSink {
   std::vector<float> error_;
 };
 
-class TiledAssembly {
+class TiledAssembly final : public RowAssembly {
  public:
   TiledAssembly(std::span<const scene::SurfacePatch> patches, TileStore& store, Run& run)
       : patches_(patches), store_(store), run_(run), tiles_(tiles_of(static_cast<Index>(patches.size()), store.tile_size())) {}
 
-  void everything(const FormFactorMethod& method) {
+  void everything(const FormFactorMethod& method) override {
     if (method.granularity() != FormFactorMethod::Granularity::pair) return whole(method);
     std::vector<Tile> missing;
     for (const Tile& tile : tiles_)
@@ -99,7 +97,7 @@ class TiledAssembly {
   }
 
   /// These rows and columns once more; the rest of their tiles stays.
-  void again(const FormFactorMethod& method, std::span<const Index> rows) {
+  void again(const FormFactorMethod& method, std::span<const Index> rows) override {
     const auto held = [&](const Range& range) {
       std::vector<Index> out;
       std::copy_if(rows.begin(), rows.end(), std::back_inserter(out), [&](Index a) { return range.holds(a); });
@@ -118,7 +116,7 @@ class TiledAssembly {
   }
 
   /// In the order of the tiles: the same for any number of threads, and for one run or several.
-  std::vector<double> row_errors() const {
+  std::vector<double> row_errors() const override {
     std::vector<double> sums(patches_.size(), 0);
     for (const Tile& tile : tiles_) {
       TileSink t(tile);
@@ -134,7 +132,7 @@ class TiledAssembly {
     return sums;
   }
 
-  PairCounts counts() const { return counts_; }
+  PairCounts counts() const override { return counts_; }
 
  private:
   ElementBlock block(const Range& range) const { return {patches_, range.first, range.count}; }
@@ -169,35 +167,12 @@ class TiledAssembly {
   PairCounts counts_;
 };
 
-std::vector<Index> rows_above(double tolerance, std::span<const double> errors) {
-  std::vector<Index> rows;
-  for (std::size_t a = 0; a < errors.size(); ++a)
-    if (errors[a] > tolerance) rows.push_back(static_cast<Index>(a));
-  return rows;
-}
-
 }  // namespace
 
-ToleranceReport assemble_tiles(const std::function<std::unique_ptr<FormFactorMethod>(double)>& make, double tolerance,
-                               std::span<const scene::SurfacePatch> patches, TileStore& store, Run& run) {
+ToleranceReport assemble_tiles(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches, TileStore& store,
+                               Run& run) {
   TiledAssembly assembly(patches, store, run);
-  ToleranceReport report;
-  double relative = entry_tolerance(tolerance);
-  std::unique_ptr<FormFactorMethod> method = make(relative);
-  assembly.everything(*method);
-  report.row_errors = assembly.row_errors();
-  report.passes = 1;
-  std::vector<Index> rows = rows_above(tolerance, report.row_errors);
-  while (!rows.empty() && report.passes < most_passes && method->granularity() == FormFactorMethod::Granularity::pair) {
-    method = make(relative *= 0.25);
-    assembly.again(*method, rows);
-    report.row_errors = assembly.row_errors();
-    ++report.passes;
-    rows = rows_above(tolerance, report.row_errors);
-  }
-  report.pairs = assembly.counts();
-  report.met = rows.empty();
-  return report;
+  return until_rows_meet(tolerance, make, assembly);
 }
 
 }  // namespace interflect::fem

@@ -20,7 +20,7 @@ class TileStore {
 /// `assemble_to_tolerance` into a store; tiles that are done are left as they are, unless rows in them do not meet the tolerance.  Errors
 /// are bound + 1.96 standard errors.  Methods that go by rows or all at once need 12 N² bytes on the way.
 /// @throws core::Interrupted  with whole tiles written
-ToleranceReport assemble_tiles(const std::function<std::unique_ptr<FormFactorMethod>(double)>& make, double tolerance,
-                               std::span<const scene::SurfacePatch> patches, TileStore& store, Run& run);
+ToleranceReport assemble_tiles(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches, TileStore& store,
+                               Run& run);
 
 }  // namespace interflect::fem

@@ -24,10 +24,10 @@ void ShadowEvents::add(const PairShadow& shadow) {
   for (const PairShadow::Edge& edge : shadow.edges()) {
     add_once(edge.from);
     add_once(edge.to);
-    for (const Vec3& corner : inner_) add_edge(edge.from, edge.to, corner);
+    for (const Vec3& corner : inner_) add_corner_and_edge(corner, edge.from, edge.to);
   }
   for (const Vec3& corner : corners_)
-    for (std::size_t k = 0; k < inner_.size(); ++k) add_corner(corner, inner_[k], inner_[k + 1 < inner_.size() ? k + 1 : 0]);
+    for (std::size_t k = 0; k < inner_.size(); ++k) add_corner_and_edge(corner, inner_[k], inner_[k + 1 < inner_.size() ? k + 1 : 0]);
 }
 
 /// Where the plane cuts the outer ring, if it does: not in a corner or along an edge.
@@ -72,27 +72,15 @@ void ShadowEvents::add_face(const geometry::Plane& face) {
   if (chord(plane, from, to)) planes_.push_back(plane);
 }
 
-/// Seen from some point of the chord, the corner must lie in line with the edge, between its ends.
-void ShadowEvents::add_edge(const Vec3& a, const Vec3& b, const Vec3& corner) {
+/// The plane through a corner and an edge, if there is a point of its chord from which the corner lies in line with the edge, between
+/// its ends: both EV and VE.
+void ShadowEvents::add_corner_and_edge(const Vec3& corner, const Vec3& a, const Vec3& b) {
   const Vec3 normal = (b - a).cross(corner - a);
   const HalfSpace plane{normal, normal.dot(corner)};
   Vec3 from, to;
   if (!chord(plane, from, to)) return;
-  const double a_from = side(from, corner, a, normal), b_from = side(from, corner, b, normal), a_to = side(to, corner, a, normal),
-               b_to = side(to, corner, b, normal);
-  const auto [low, high] = std::minmax({a_from, b_from, a_to, b_to});
-  if (low < 0 && high > 0) planes_.push_back(plane);
-}
-
-/// Seen from some point of the chord, the blocker's corner must lie in line with the inner edge, between its ends.
-void ShadowEvents::add_corner(const Vec3& a, const Vec3& v, const Vec3& w) {
-  const Vec3 normal = (w - v).cross(a - v);
-  const HalfSpace plane{normal, normal.dot(a)};
-  Vec3 from, to;
-  if (!chord(plane, from, to)) return;
-  const double v_from = side(from, a, v, normal), w_from = side(from, a, w, normal), v_to = side(to, a, v, normal),
-               w_to = side(to, a, w, normal);
-  const auto [low, high] = std::minmax({v_from, w_from, v_to, w_to});
+  const auto [low, high] = std::minmax({side(from, corner, a, normal), side(from, corner, b, normal), side(to, corner, a, normal),
+                                        side(to, corner, b, normal)});
   if (low < 0 && high > 0) planes_.push_back(plane);
 }
 

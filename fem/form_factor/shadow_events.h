@@ -31,8 +31,7 @@ class ShadowEvents {
 
  private:
   void add_face(const geometry::Plane& face);
-  void add_edge(const Vec3& a, const Vec3& b, const Vec3& corner);
-  void add_corner(const Vec3& a, const Vec3& v, const Vec3& w);
+  void add_corner_and_edge(const Vec3& corner, const Vec3& a, const Vec3& b);
   bool chord(const geometry::HalfSpace& plane, Vec3& from, Vec3& to);
 
   std::span<const Vec3> outer_, inner_;
