@@ -33,24 +33,20 @@ std::vector<Tile> tiles_of(Index n, Index size) {
 }
 
 /// Entries of one tile, as they come.
-class TileSink final : public ExchangeSink {
- public:
-  explicit TileSink(const Tile& tile) : tile_(tile), K(static_cast<std::size_t>(tile.rows.count * tile.columns.count), 0), error(K) {}
+struct TileSink final : ExchangeSink {
+  explicit TileSink(const Tile& of) : tile(of), K(static_cast<std::size_t>(of.rows.count * of.columns.count), 0), error(K) {}
 
   void add(Index a, Index b, const ExchangeEntry& entry) override {
     set(a, b, entry);
-    if (tile_.I == tile_.J) set(b, a, entry);
+    if (tile.I == tile.J) set(b, a, entry);
   }
-
- private:
   void set(Index a, Index b, const ExchangeEntry& entry) {
-    const auto at = static_cast<std::size_t>((a - tile_.rows.first) * tile_.columns.count + b - tile_.columns.first);
+    const auto at = static_cast<std::size_t>((a - tile.rows.first) * tile.columns.count + b - tile.columns.first);
     K[at] = entry.K;
     error[at] = error_of(entry);
   }
-  Tile tile_;
 
- public:
+  Tile tile;
   std::vector<double> K, error;
 };
 

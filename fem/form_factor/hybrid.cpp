@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/estimate.h"
-#include "core/random.h"
 #include "fem/form_factor/exact_occlusion.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/form_factor/visibility.h"
@@ -85,8 +84,6 @@ class Hybrid::Points final : public PairOcclusion {
   std::vector<double> weights_;
   std::vector<std::uint8_t> blocked_;
 };
-
-std::uint64_t Hybrid::core_seed(std::uint64_t seed) { return core::derived_seed(seed, "hybrid"); }
 
 std::unique_ptr<PairOcclusion> Hybrid::occlusion() const { return std::make_unique<Points>(*this); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/random.h"
 #include "fem/form_factor/pair_method.h"
 
 namespace interflect::fem {
@@ -14,12 +15,11 @@ namespace interflect::fem {
 /// A pair whose standard error is above the tolerance is handed to exact subtraction (exact_occlusion.h).
 class Hybrid final : public PairMethod {
  public:
-  explicit Hybrid(const FormFactorContext& context) : PairMethod(context), seed_(core_seed(context.seed)) {}
+  explicit Hybrid(const FormFactorContext& context) : PairMethod(context), seed_(core::derived_seed(context.seed, "hybrid")) {}
   std::string name() const override { return "hybrid"; }
 
  private:
   class Points;
-  static std::uint64_t core_seed(std::uint64_t seed);
   std::unique_ptr<PairOcclusion> occlusion() const override;
 
   std::uint64_t seed_;

@@ -50,7 +50,7 @@ TEST(RowErrors, rows_of_a_closed_room_meet_the_tolerance_before_any_repair) {
   }
 }
 
-// A method asked for ten times less than it should: the rows that fail are done again until they do not.
+// A method asked for thirty times less than it should be: the rows that fail are done again until they do not.
 TEST(RowErrors, rows_that_fail_are_done_again) {
   const Assembled once = assembled("analytic", 1e-4, 2, 30);
   EXPECT_TRUE(once.report.met);
@@ -68,7 +68,7 @@ TEST(RowErrors, are_the_same_for_any_number_of_threads) {
   }
 }
 
-// Ten entries of the errors 1, 2, 3, .. metres squared on rows of unequal area.
+// Two entries between three elements of unequal area.
 TEST(RowErrors, are_sums_of_bounds_and_of_95_percent_of_noise) {
   test::MatrixSink sink(3);
   const std::vector<double> areas{1, 2, 4};
