@@ -10,9 +10,10 @@ ExactOcclusion::ExactOcclusion(const ElementShapes& shapes, const Blockers& bloc
 ExchangeEntry ExactOcclusion::operator()(const DoubtfulPair& pair, PairCounts& counts) {
   find_blockers(pair);
   const std::uint64_t before = hidden_.points();
-  const Integral hidden = hidden_part(pair);
+  const HiddenIntegral hidden = hidden_part(pair);
   ++counts.subtracted;
   counts.points += hidden_.points() - before;
+  if (hidden.all) return {};
   return {std::max(0.0, pair.unoccluded.value - hidden.value), 0, pair.unoccluded.error + hidden.error};
 }
 
@@ -24,24 +25,25 @@ void ExactOcclusion::find_blockers(const DoubtfulPair& pair) {
 }
 
 /// Elements that reach through each other's planes are clipped first.
-Integral ExactOcclusion::hidden_part(const DoubtfulPair& pair) {
+HiddenIntegral ExactOcclusion::hidden_part(const DoubtfulPair& pair) {
   const ElementShape &a = shapes_[pair.i], &b = shapes_[pair.j];
   const double tolerance = tolerance_ * pair.unoccluded.value;
   if (pair.unoccluded.facing == Facing::full) return hidden_between(a, b, tolerance);
-  Integral sum;
+  HiddenIntegral sum{0, 0, true};
   const Pieces of_a = pieces_in_front(a, b.plane), of_b = pieces_in_front(b, a.plane);
   const double share = tolerance / static_cast<double>(of_a.count * of_b.count);
   for (std::size_t k = 0; k < of_a.count; ++k)
     for (std::size_t l = 0; l < of_b.count; ++l) {
-      const Integral part = hidden_between(of_a.shape[k], of_b.shape[l], share);
+      const HiddenIntegral part = hidden_between(of_a.shape[k], of_b.shape[l], share);
       sum.value += part.value;
       sum.error += part.error;
+      sum.all = sum.all && part.all;
     }
   return sum;
 }
 
 /// The outer element is the smaller one, as without occlusion (pair_integral.h).
-Integral ExactOcclusion::hidden_between(const ElementShape& a, const ElementShape& b, double tolerance) {
+HiddenIntegral ExactOcclusion::hidden_between(const ElementShape& a, const ElementShape& b, double tolerance) {
   return a.radius <= b.radius ? hidden_(a, b, list_, tolerance) : hidden_(b, a, list_, tolerance);
 }
 

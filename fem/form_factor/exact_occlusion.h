@@ -7,8 +7,8 @@
 
 namespace interflect::fem {
 
-/// K of doubtful pairs with what hides parts of them subtracted exactly (hidden_exchange.h): what `analytic` does with all of them, and
-/// `hybrid` with the difficult ones.
+/// K of doubtful pairs with what hides parts of them subtracted exactly (hidden_exchange.h): what `analytic` does with
+/// all of them, and `hybrid` with the difficult ones.
 class ExactOcclusion final : public PairOcclusion {
  public:
   /// @param tolerance  relative to the unoccluded K.  What is referred to outlives this.
@@ -18,8 +18,8 @@ class ExactOcclusion final : public PairOcclusion {
 
  private:
   void find_blockers(const DoubtfulPair& pair);
-  Integral hidden_part(const DoubtfulPair& pair);
-  Integral hidden_between(const ElementShape& a, const ElementShape& b, double tolerance);
+  HiddenIntegral hidden_part(const DoubtfulPair& pair);
+  HiddenIntegral hidden_between(const ElementShape& a, const ElementShape& b, double tolerance);
 
   const ElementShapes& shapes_;
   const Blockers& blockers_;

@@ -1,5 +1,6 @@
 #include "fem/form_factor/far_field.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace interflect::fem {
@@ -37,15 +38,22 @@ struct Fit {
   double floor;
   int power;
 };
-constexpr Fit fits[2][ElementShapes::levels] = {{{}, {0.60, 2, 0.32, 4}, {0.38, 2, 0.10, 6}, {0.55, 2, 0.010, 8}},
-                                                {{}, {0.066, 3, 0.18, 5}, {0.19, 2, 0.0032, 7}, {1.6, 1, 0.00018, 8}}};
+constexpr Fit of_quads[ElementShapes::levels] = {{}, {0.53, 2, 0.32, 4}, {0.39, 2, 0.18, 6}, {0.071, 1, 1.8, 9}};
+constexpr Fit of_triangles[ElementShapes::levels] = {{}, {0.041, 3, 0.32, 5}, {0.84, 3, 0.001, 7}, {6.6, 3, 0.0001, 8}};
 
-const Fit& fit_of(FarPair pair, int level) { return fits[pair == FarPair::of_triangles][level]; }
+const Fit& fit_of(const FarPair::Element& element, int level) {
+  return (element.triangle ? of_triangles : of_quads)[level];
+}
 
 double power(double q, int exponent) {
   double product = 1;
   for (int k = 0; k < exponent; ++k) product *= q;
   return product;
+}
+
+double typical_error(const FarPair::Element& element, int level) {
+  const Fit& fit = fit_of(element, level);
+  return fit.scale * fit.floor * power(element.q, fit.power);
 }
 
 }  // namespace
@@ -67,15 +75,28 @@ double far_field(const NodeArrays& a, const geometry::Plane& plane_a, const Node
   }
 }
 
-double far_field_error(int level, FarPair pair, double q, double difference, double K) {
-  const Fit& fit = fit_of(pair, level);
-  return fit.scale * (power(q, fit.gain) * std::abs(difference) + fit.floor * power(q, fit.power) * K);
+FarPair far_pair(const ElementShape& a, const ElementShape& b) {
+  const double per_distance = 1 / (a.centroid - b.centroid).norm();
+  const double cosine =
+      std::min(std::abs(a.plane.distance(b.centroid)), std::abs(b.plane.distance(a.centroid))) * per_distance;
+  return {{a.radius * per_distance, a.corners == 3}, {b.radius * per_distance, b.corners == 3}, cosine};
 }
 
-int far_field_level(FarPair pair, double q, double tolerance) {
-  if (!(q < 0.7)) return ElementShapes::levels;
+double far_field_error(int level, const FarPair& pair, double difference, double K) {
+  double error = 0;
+  for (const FarPair::Element& element : {pair.a, pair.b}) {
+    const Fit& fit = fit_of(element, level);
+    error += fit.scale * power(element.q, fit.gain) * std::abs(difference);
+    error += typical_error(element, level) / pair.steepness() * K;
+  }
+  return error;
+}
+
+int far_field_level(const FarPair& pair, double tolerance) {
+  if (!(pair.q() < 0.7)) return ElementShapes::levels;
+  const double most = tolerance * pair.steepness();
   for (int level = 1; level < ElementShapes::levels; ++level)
-    if (const Fit& fit = fit_of(pair, level); fit.scale * fit.floor * power(q, fit.power) <= tolerance) return level;
+    if (typical_error(pair.a, level) + typical_error(pair.b, level) <= most) return level;
   return ElementShapes::levels;
 }
 

@@ -13,17 +13,21 @@ namespace interflect::fem {
 namespace {
 
 using geometry::ConvexBlocker;
+using geometry::HiddenPart;
 using Blockers = std::span<const ConvexBlocker* const>;
 
 constexpr std::size_t most_cells = 20'000;
 constexpr std::size_t most_events = 24;  ///< beyond, the element is quartered first: the parts have fewer each
+constexpr std::size_t most_kinks = 12;   ///< of one cell at a time
 constexpr int deepest = 5;
 constexpr int rungs = 4;
+constexpr double same_place = 1e-9;  ///< of corners, beside the radius of the inner element
 
 /// Rules of rising degree: 1, 2, 4, 6 on triangles, 1, 3, 5, 7 on quads.
 const Rule& rule_of(int rung, std::size_t corners) {
-  static const std::array<RulePair, rungs> ladder = {RulePair{triangle_rule(1), quad_rule(1)}, RulePair{triangle_rule(2), quad_rule(2)},
-                                                     RulePair{triangle_rule(4), quad_rule(3)}, RulePair{triangle_rule(6), quad_rule(4)}};
+  static const std::array<RulePair, rungs> ladder = {
+      RulePair{triangle_rule(1), quad_rule(1)}, RulePair{triangle_rule(2), quad_rule(2)},
+      RulePair{triangle_rule(4), quad_rule(3)}, RulePair{triangle_rule(6), quad_rule(4)}};
   return ladder[static_cast<std::size_t>(rung)].of(corners);
 }
 
@@ -37,7 +41,8 @@ double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 double distance_of(const ElementShape& outer, const ElementShape& inner, std::span<const PairShadow> shadows) {
   double distance = (outer.centroid - inner.centroid).norm() - inner.radius;
   for (const PairShadow& shadow : shadows)
-    for (const PairShadow::Edge& edge : shadow.edges()) distance = std::min(distance, distance_to_segment(outer.centroid, edge.from, edge.to));
+    for (const PairShadow::Edge& edge : shadow.edges())
+      distance = std::min(distance, distance_to_segment(outer.centroid, edge.from, edge.to));
   return distance;
 }
 
@@ -82,14 +87,14 @@ class HiddenExchange::Pair {
       if (worst.rung + 1 < rungs && ratio(worst) <= 0.5) {
         climb(worst);
         push(worst);
-      } else {
-        for (const auto& part : scene::quarters_of(worst.ring())) add(Cell{part, worst.corners});
+      } else if (!worst.kinked || !follow_kinks(worst)) {
+        for (const auto& part : scene::quarters_of(worst.ring())) add(Cell{part, worst.corners, Hides::none, {}});
       }
     }
   }
   /// Summed afresh: the running sums carry the rounding of what was taken out.
-  Integral result() const {
-    Integral sum = given_up_;
+  HiddenIntegral result() const {
+    HiddenIntegral sum{given_up_.value, given_up_.error, all_};
     for (const Cell& cell : work_.cells_) sum.value += cell.value, sum.error += cell.error;
     return sum;
   }
@@ -100,20 +105,22 @@ class HiddenExchange::Pair {
   /// A convex part between the lines, as quads and at most one triangle.
   void add(std::span<const Vec3> ring) {
     for (std::size_t first = 1; first + 1 < ring.size(); first += 2) {
-      Cell cell{{ring[0], ring[first], ring[first + 1], ring[0]}, 3};
+      Cell cell{{ring[0], ring[first], ring[first + 1], ring[0]}, 3, Hides::none, {}};
       if (first + 2 < ring.size()) cell.corner[cell.corners++] = ring[first + 2];
       add(cell);
     }
   }
   /// Half of it may be hidden, or all, or nothing.
   void give_up(std::span<const Vec3> ring) {
-    const Cell cell{{ring[0], ring[1], ring[2], ring[ring.size() - 1]}, ring.size(), Hides::all};
+    const Cell cell{{ring[0], ring[1], ring[2], ring[ring.size() - 1]}, ring.size(), Hides::all, {}};
     const double half = 0.5 * integral(cell);
+    all_ = false;
     given_up_.value += half;
     given_up_.error += half;
   }
   void add(Cell cell) {
     classify(cell);
+    all_ = all_ && cell.hides == Hides::all;
     if (cell.hides == Hides::none) return;
     cell.value = integral(cell);
     climb(cell);
@@ -124,15 +131,40 @@ class HiddenExchange::Pair {
     const RuleNode centre = rule_of(0, cell.corners).front();
     const Vec3 eye = point_on(cell.ring(), centre.u, centre.v);
     cell.hides = Hides::none;
-    int parts = 0;
     for (std::size_t k = 0; k < shadows().size(); ++k) {
       work_.look(eye, inner_);
-      work_.hide(eye, shadows()[k]);
+      work_.hide(eye, shadows()[k], work_.part_);
       if (work_.part_.hidden().size() == 0) continue;
       cell.hides = work_.part_.seen().size() == 0 ? Hides::all : Hides::part;
       if (cell.hides == Hides::all) return;
-      cell.only = ++parts == 1 ? static_cast<int>(k) : -1;
+      cell.parts.add(k);
     }
+    cell.kinked = cell.parts.several() && form_changes(cell, eye);
+  }
+  /// From near the corners: on the lines themselves one of two forms is as good as the other.
+  bool form_changes(const Cell& cell, const Vec3& centre) const {
+    constexpr double inwards = 1e-3;
+    const int there = work_.corners_seen(centre, inner_, cell.parts);
+    const auto ring = cell.ring();
+    return std::any_of(ring.begin(), ring.end(), [&](const Vec3& corner) {
+      return work_.corners_seen(corner + inwards * (centre - corner), inner_, cell.parts) != there;
+    });
+  }
+  /// Cuts a cell along what lines there are of two blockers together; false where there are none, or too many.
+  bool follow_kinks(const Cell& cell) {
+    work_.events_.start(cell.ring(), inner_.ring());
+    for (std::size_t k = 0; k < shadows().size(); ++k)
+      for (std::size_t l = k + 1; l < shadows().size(); ++l) {
+        if (!cell.parts.has(k) || !cell.parts.has(l)) continue;
+        work_.events_.add_between(shadows()[k], shadows()[l]);
+        if (work_.events_.planes().size() > most_kinks) return false;
+      }
+    if (work_.events_.planes().empty()) return false;
+    work_.rings_.clear();
+    work_.rings_.push_back(cell.ring());
+    work_.events_.cut(work_.rings_);
+    for (std::size_t k = 0; k < work_.rings_.size(); ++k) add(work_.rings_[k]);
+    return true;
   }
   void push(const Cell& cell) {
     value_ += cell.value;
@@ -142,14 +174,14 @@ class HiddenExchange::Pair {
   }
   void climb(Cell& cell) const {
     ++cell.rung;
-    const double before = cell.value;
+    const double before = cell.value, q = ratio(cell);
     cell.value = integral(cell);
-    const double q = ratio(cell);
-    cell.error = std::abs(cell.value - before) * (cell.corners == 4 ? q * q : q);
+    const double c = cell.corners == 4 && !cell.parts.several() ? 0.5 : 2;
+    cell.error = std::min(1.0, c * q) * std::abs(cell.value - before);
   }
   /// Of the cell to the distance over which its integrand varies; 1 where that has kinks.
   double ratio(const Cell& cell) const {
-    if (cell.hides == Hides::part && cell.only < 0) return 1;
+    if (cell.kinked) return 1;
     const double radius = radius_of(cell.ring());
     return radius < distance_ ? radius / distance_ : 1;
   }
@@ -164,11 +196,8 @@ class HiddenExchange::Pair {
     const Vec3& normal = outer_.plane.normal;
     if (cell.hides == Hides::all) return point_to_polygon_above_horizon(eye, normal, inner_.ring());
     work_.look(eye, inner_);
-    if (cell.only >= 0) {
-      work_.hide(eye, shadows()[static_cast<std::size_t>(cell.only)]);
-    } else {
-      for (const PairShadow& shadow : shadows()) work_.hide(eye, shadow);
-    }
+    for (std::size_t k = 0; k < shadows().size(); ++k)
+      if (cell.parts.has(k)) work_.hide(eye, shadows()[k], work_.part_);
     return work_.factor_of_hidden(normal);
   }
 
@@ -176,10 +205,12 @@ class HiddenExchange::Pair {
   const ElementShape &outer_, &inner_;
   double distance_;
   double value_ = 0, error_ = 0;
+  bool all_ = true;    ///< is hidden from all cells
   Integral given_up_;  ///< parts with too many events
 };
 
-Integral HiddenExchange::operator()(const ElementShape& outer, const ElementShape& inner, Blockers blockers, double tolerance) {
+HiddenIntegral HiddenExchange::operator()(const ElementShape& outer, const ElementShape& inner, Blockers blockers,
+                                          double tolerance) {
   prepare(outer.ring(), inner.ring(), blockers);
   if (shadow_count_ == 0) return {};
   Pair pair(*this, outer, inner);
@@ -190,7 +221,7 @@ Integral HiddenExchange::operator()(const ElementShape& outer, const ElementShap
 
 double HiddenExchange::hidden_factor(const Vec3& x, const Vec3& normal, const ElementShape& inner, Blockers blockers) {
   look(x, inner);
-  for (const ConvexBlocker* blocker : blockers) hide(x, *blocker);
+  for (const ConvexBlocker* blocker : blockers) hide(x, *blocker, part_);
   return factor_of_hidden(normal);
 }
 
@@ -198,7 +229,8 @@ double HiddenExchange::hidden_factor(const Vec3& x, const Vec3& normal, const El
 void HiddenExchange::prepare(std::span<const Vec3> outer, std::span<const Vec3> inner, Blockers blockers) {
   shadow_count_ = 0;
   if (shadows_.size() < blockers.size()) shadows_.resize(blockers.size());
-  for (const ConvexBlocker* blocker : blockers) shadow_count_ += shadows_[shadow_count_].prepare(*blocker, outer, inner, rounding_);
+  for (const ConvexBlocker* blocker : blockers)
+    shadow_count_ += shadows_[shadow_count_].prepare(*blocker, outer, inner, rounding_);
 }
 
 void HiddenExchange::look(const Vec3& eye, const ElementShape& inner) {
@@ -208,21 +240,21 @@ void HiddenExchange::look(const Vec3& eye, const ElementShape& inner) {
   part_.start(relative_);
 }
 
-void HiddenExchange::hide(const Vec3& eye, const PairShadow& shadow) {
-  if (shadow.touches_eyes()) return hide(eye, shadow.blocker());
-  if (part_.seen().size() == 0) return;
+void HiddenExchange::hide(const Vec3& eye, const PairShadow& shadow, HiddenPart& part) {
+  if (shadow.touches_eyes()) return hide(eye, shadow.blocker(), part);
+  if (part.seen().size() == 0) return;
   shadow_.clear();
   shadow.append(eye, shadow_);
-  part_.hide(shadow_);
+  part.hide(shadow_);
 }
 
-void HiddenExchange::hide(const Vec3& eye, const ConvexBlocker& blocker) {
-  if (part_.seen().size() == 0) return;
+void HiddenExchange::hide(const Vec3& eye, const ConvexBlocker& blocker, HiddenPart& part) {
+  if (part.seen().size() == 0) return;
   shadow_.clear();
   if (blocker.append_shadow(eye, rounding_, shadow_)) {
-    part_.hide(shadow_);
+    part.hide(shadow_);
   } else if (!blocker.flat()) {  // from within a solid, or from what it stands on, its faces are what hides
-    for (const geometry::Ring& face : blocker.faces()) hide(eye, ConvexBlocker::polygon(face));
+    for (const geometry::Ring& face : blocker.faces()) hide(eye, ConvexBlocker::polygon(face), part);
   }
 }
 
@@ -231,6 +263,14 @@ double HiddenExchange::factor_of_hidden(const Vec3& normal) const {
   for (std::size_t k = 0; k < part_.hidden().size(); ++k)
     sum += point_to_polygon_above_horizon(Vec3::Zero(), normal, part_.hidden()[k]);
   return sum;
+}
+
+/// How many corners there are to what is seen of the inner element past the shadows.
+int HiddenExchange::corners_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past) {
+  look(eye, inner);
+  for (std::size_t k = 0; k < shadow_count_; ++k)
+    if (past.has(k)) hide(eye, shadows_[k], part_);
+  return union_corners_(part_.seen(), inner.plane.normal, same_place * inner.radius);
 }
 
 }  // namespace interflect::fem

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,20 +10,32 @@
 #include "fem/form_factor/shadow_events.h"
 #include "geometry/convex_blocker.h"
 #include "geometry/hidden_part.h"
+#include "geometry/union_corners.h"
 
 namespace interflect::fem {
 
-/// What blockers take from the exchange of two elements, after [Nishita, Nakamae 1985]: from a point of one the hidden part of the other is
-/// known exactly, as polygons, and Lambert's formula gives their form factor; that is integrated over the first,
+/// What blockers take from an exchange, and what its error is estimated to be at most [m²].
+struct HiddenIntegral {
+  double value = 0, error = 0;
+  bool all = false;  ///< one blocker hides all of the other element from wherever one is
+};
+
+/// What blockers take from the exchange of two elements, after [Nishita, Nakamae 1985]: from a point of one the hidden
+/// part of the other is known exactly, as polygons, and Lambert's formula gives their form factor; that is integrated
+/// over the first,
 ///
 ///   K_hidden = int_{outer} F_{dA -> hidden part of inner} dA  [m²],    K = K_unoccluded - K_hidden.
 ///
-/// The outer element is cut along the lines where the shadow changes its form (ShadowEvents).  On what lies between, the integrand is
-/// smooth, and a ladder of rules is climbed: with values v_0, v_1, .. (1, 3, 6, .. nodes) the error of v_l is taken for
-/// |v_l - v_{l-1}|, the error of the step before, times (cell / distance)^n, n = 2 on quads, whose rules gain two orders a step, and 1 on
-/// triangles.  In a cell a blocker hides nothing, all, or a part: what hides nothing or all of `inner` from the centroid does so from the
-/// whole cell.  Where several hide parts, kinks remain between the lines: there the factor is 1, and cells are quartered.  The cell
-/// with the largest error goes first, until the errors sum to the tolerance.
+/// The outer element is cut along the lines where the shadow changes its form (ShadowEvents).  On what lies between,
+/// the integrand is smooth, and a ladder of rules is climbed: with values v_0, v_1, .. (1, 3, 6, .. nodes) the error of
+/// v_l is taken for |v_l - v_{l-1}|, the error of the step before, times c cell / distance, at most 1: what a step
+/// leaves is of one order higher in that.  (c = 1/2 on quads past one blocker, 2 otherwise: fitted,
+/// tests/fem/claimed_errors.cpp.)  In a cell a blocker hides nothing, all, or a part: what hides nothing or all of
+/// `inner` from the centroid does so from the whole cell.  Where several hide parts each, kinks remain between the
+/// lines, across which what is seen past all of them gains or loses corners.  A cell near all of whose corners it has
+/// as many as in the middle is taken for smooth.  In one with a kink the factor is 1; it is cut along those lines that
+/// go through a corner of one blocker and an edge of another, and then quartered (what is left are surfaces of second
+/// degree, through three edges).  The cell with the largest error goes first, until the errors sum to the tolerance.
 ///
 /// Not shared between threads: it holds the work's memory.
 class HiddenExchange {
@@ -31,11 +45,13 @@ class HiddenExchange {
 
   /// @param outer, inner  each in front of the other's plane
   /// @param tolerance     [m²]
-  /// @return  value, and an estimated bound on its error; that exceeds the tolerance only if 20 000 cells were not enough
-  Integral operator()(const ElementShape& outer, const ElementShape& inner,
-                      std::span<const geometry::ConvexBlocker* const> blockers, double tolerance);
+  /// @return  value, and an estimated bound on its error; that exceeds the tolerance only if 20 000 cells were not
+  /// enough
+  HiddenIntegral operator()(const ElementShape& outer, const ElementShape& inner,
+                            std::span<const geometry::ConvexBlocker* const> blockers, double tolerance);
 
-  /// F_{dA -> hidden part of inner} from a point in front of the inner element's plane, for which that is in front of the horizon.
+  /// F_{dA -> hidden part of inner} from a point in front of the inner element's plane, for which that is in front of
+  /// the horizon.
   double hidden_factor(const Vec3& x, const Vec3& normal, const ElementShape& inner,
                        std::span<const geometry::ConvexBlocker* const> blockers);
 
@@ -43,12 +59,21 @@ class HiddenExchange {
 
  private:
   enum class Hides : std::uint8_t { none, all, part };
+  /// Some of the first 64 shadows; of more, all.
+  struct ShadowSet {
+    std::uint64_t bits = 0;
+    bool every = false;
+    void add(std::size_t k) { k < 64 ? void(bits |= std::uint64_t{1} << k) : void(every = true); }
+    bool has(std::size_t k) const { return every || (k < 64 && (bits >> k & 1) != 0); }
+    bool several() const { return every || std::popcount(bits) > 1; }
+  };
   /// A triangle or quad of the outer element, what is hidden from it, and its value by the rule of a rung.
   struct Cell {
     std::array<Vec3, 4> corner;
     std::size_t corners;
     Hides hides = Hides::none;
-    int only = -1;  ///< the one of the shadows that hides a part; none where several do
+    ShadowSet parts;      ///< the shadows that hide a part each
+    bool kinked = false;  ///< what several leave to be seen has another form here than there
     int rung = 0;
     double value = 0, error = 0;
     std::span<const Vec3> ring() const { return {corner.data(), corners}; }
@@ -56,16 +81,19 @@ class HiddenExchange {
   };
   class Pair;
 
-  void prepare(std::span<const Vec3> outer, std::span<const Vec3> inner, std::span<const geometry::ConvexBlocker* const> blockers);
+  void prepare(std::span<const Vec3> outer, std::span<const Vec3> inner,
+               std::span<const geometry::ConvexBlocker* const> blockers);
   void look(const Vec3& eye, const ElementShape& inner);
-  void hide(const Vec3& eye, const PairShadow& shadow);
-  void hide(const Vec3& eye, const geometry::ConvexBlocker& blocker);
+  void hide(const Vec3& eye, const PairShadow& shadow, geometry::HiddenPart& part);
+  void hide(const Vec3& eye, const geometry::ConvexBlocker& blocker, geometry::HiddenPart& part);
   double factor_of_hidden(const Vec3& normal) const;
+  int corners_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past);
 
   ShadowEvents events_;
   double rounding_;
   std::uint64_t points_ = 0;
   geometry::HiddenPart part_;
+  geometry::UnionCorners union_corners_;
   std::vector<PairShadow> shadows_;  ///< the first `shadow_count_` are in use
   std::size_t shadow_count_ = 0;
   std::vector<geometry::HalfSpace> shadow_;

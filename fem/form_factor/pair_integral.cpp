@@ -32,10 +32,6 @@ Integral near_field(const ElementShape& a, const ElementShape& b, double toleran
   return adaptive_lambert(outer.ring(), outer.plane.normal, inner.ring(), tolerance);
 }
 
-double proximity(const ElementShape& a, const ElementShape& b) {
-  return (a.radius + b.radius) / (a.centroid - b.centroid).norm();
-}
-
 Pieces pieces_of(const geometry::ConvexRing& ring, const geometry::Plane& plane) {
   Pieces pieces;
   const auto corners = static_cast<std::size_t>(ring.corners);
@@ -74,13 +70,12 @@ PairIntegral PairIntegrator::operator()(Index i, Index j) const {
 /// The far field where it will do, from the level that promises to, and else the near field.
 template <class FarField>
 Integral PairIntegrator::unclipped(const ElementShape& a, const ElementShape& b, const FarField& far) const {
-  const double q = proximity(a, b);
-  const FarPair pair = a.corners == 3 && b.corners == 3 ? FarPair::of_triangles : FarPair::with_quads;
-  int level = far_field_level(pair, q, tolerance_);
+  const FarPair pair = far_pair(a, b);
+  int level = far_field_level(pair, tolerance_);
   if (level == ElementShapes::levels) return near_field(a, b, tolerance_);
   double before = far(level - 1);
   for (; level < ElementShapes::levels; ++level) {
-    const double value = std::max(0.0, far(level)), error = far_field_error(level, pair, q, value - before, value);
+    const double value = std::max(0.0, far(level)), error = far_field_error(level, pair, value - before, value);
     if (error <= tolerance_ * value) return {value, error};
     before = value;
   }

@@ -1,6 +1,7 @@
 #include "fem/form_factor/shadow_events.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "geometry/split.h"
@@ -11,23 +12,45 @@ namespace {
 using geometry::HalfSpace;
 
 /// On which side of the line through x and y p lies, all in the plane across `normal`.
-double side(const Vec3& x, const Vec3& y, const Vec3& p, const Vec3& normal) { return (y - x).cross(p - x).dot(normal); }
+double side(const Vec3& x, const Vec3& y, const Vec3& p, const Vec3& normal) {
+  return (y - x).cross(p - x).dot(normal);
+}
 
 }  // namespace
 
 void ShadowEvents::add(const PairShadow& shadow) {
   for (const geometry::Plane& face : shadow.turning()) add_face(face);
-  corners_.clear();
-  const auto add_once = [&](const Vec3& corner) {
-    if (std::find(corners_.begin(), corners_.end(), corner) == corners_.end()) corners_.push_back(corner);
-  };
-  for (const PairShadow::Edge& edge : shadow.edges()) {
-    add_once(edge.from);
-    add_once(edge.to);
+  collect_corners(shadow);
+  for (const PairShadow::Edge& edge : shadow.edges())
     for (const Vec3& corner : inner_) add_corner_and_edge(corner, edge.from, edge.to);
-  }
   for (const Vec3& corner : corners_)
-    for (std::size_t k = 0; k < inner_.size(); ++k) add_corner_and_edge(corner, inner_[k], inner_[k + 1 < inner_.size() ? k + 1 : 0]);
+    for (std::size_t k = 0; k < inner_.size(); ++k)
+      add_corner_and_edge(corner, inner_[k], inner_[k + 1 < inner_.size() ? k + 1 : 0]);
+}
+
+void ShadowEvents::collect_corners(const PairShadow& shadow) {
+  corners_.clear();
+  for (const PairShadow::Edge& edge : shadow.edges())
+    for (const Vec3& corner : {edge.from, edge.to})
+      if (std::find(corners_.begin(), corners_.end(), corner) == corners_.end()) corners_.push_back(corner);
+}
+
+void ShadowEvents::add_between(const PairShadow& a, const PairShadow& b) {
+  add_corners_and_edges(a, b);
+  add_corners_and_edges(b, a);
+}
+
+void ShadowEvents::add_corners_and_edges(const PairShadow& corners, const PairShadow& edges) {
+  collect_corners(corners);
+  Vec3 from, to;
+  for (const Vec3& corner : corners_)
+    for (const PairShadow::Edge& edge : edges.edges()) {
+      const Vec3 normal = (edge.to - edge.from).cross(corner - edge.from);
+      const HalfSpace plane{normal, normal.dot(corner)};
+      if (chord(plane, from, to) && in_line(from, to, corner, edge.from, edge.to, normal) &&
+          points_at_inner(from, to, corner))
+        planes_.push_back(plane);
+    }
 }
 
 /// Where the plane cuts the outer ring, if it does: not in a corner or along an edge.
@@ -72,16 +95,42 @@ void ShadowEvents::add_face(const geometry::Plane& face) {
   if (chord(plane, from, to)) planes_.push_back(plane);
 }
 
-/// The plane through a corner and an edge, if there is a point of its chord from which the corner lies in line with the edge, between
-/// its ends: both EV and VE.
+/// The plane through a corner and an edge, if there is a point of its chord from which the corner lies in line with the
+/// edge, between its ends: both EV and VE.
 void ShadowEvents::add_corner_and_edge(const Vec3& corner, const Vec3& a, const Vec3& b) {
   const Vec3 normal = (b - a).cross(corner - a);
   const HalfSpace plane{normal, normal.dot(corner)};
   Vec3 from, to;
   if (!chord(plane, from, to)) return;
-  const auto [low, high] = std::minmax({side(from, corner, a, normal), side(from, corner, b, normal), side(to, corner, a, normal),
-                                        side(to, corner, b, normal)});
-  if (low < 0 && high > 0) planes_.push_back(plane);
+  if (in_line(from, to, corner, a, b, normal)) planes_.push_back(plane);
+}
+
+/// Whether from some point of the chord the corner is in line with the edge, between its ends.
+bool ShadowEvents::in_line(const Vec3& from, const Vec3& to, const Vec3& corner, const Vec3& a, const Vec3& b,
+                           const Vec3& normal) const {
+  const auto [low, high] = std::minmax({side(from, corner, a, normal), side(from, corner, b, normal),
+                                        side(to, corner, a, normal), side(to, corner, b, normal)});
+  return low < 0 && high > 0;
+}
+
+/// False only if no ray from the chord through the corner goes on to the inner polygon: the rays meet its plane in a
+/// segment, which may have all of the polygon on one side, or lie beyond one of its edges.
+bool ShadowEvents::points_at_inner(const Vec3& from, const Vec3& to, const Vec3& corner) const {
+  const Vec3 normal = (inner_[1] - inner_[0]).cross(inner_[2] - inner_[0]);
+  const auto height = [&](const Vec3& x) { return normal.dot(x - inner_[0]); };
+  const double below = height(corner);
+  if (below < 0) return false;
+  std::array<Vec3, 2> meets;
+  for (std::size_t k = 0; const Vec3& x : {from, to}) {
+    const double above = height(x);
+    if (above <= below) return true;
+    meets[k++] = x + above / (above - below) * (corner - x);
+  }
+  for (std::size_t k = 0; k < inner_.size(); ++k) {
+    const Vec3 inwards = normal.cross(inner_[k + 1 < inner_.size() ? k + 1 : 0] - inner_[k]);
+    if (inwards.dot(meets[0] - inner_[k]) < 0 && inwards.dot(meets[1] - inner_[k]) < 0) return false;
+  }
+  return true;
 }
 
 }  // namespace interflect::fem

@@ -1,0 +1,76 @@
+#include "geometry/union_corners.h"
+
+#include <CGAL/Boolean_set_operations_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polygon_set_2.h>
+#include <gtest/gtest.h>
+
+#include "shapes.h"
+
+namespace interflect::geometry {
+namespace {
+
+using test::Dice;
+using test::rectangle;
+
+int corners(const std::vector<Ring>& rings) {
+  RingList list;
+  for (const Ring& ring : rings) list.push_back(ring);
+  return UnionCorners()(list, Vec3::UnitZ(), 1e-9);
+}
+
+TEST(UnionCorners, of_cut_up_figures_are_those_of_the_figures) {
+  EXPECT_EQ(corners({}), 0);
+  EXPECT_EQ(corners({rectangle(0, 0, 1, 1)}), 4);
+  EXPECT_EQ(corners({rectangle(0, 0, 1, 1), rectangle(1, 0, 3, 1)}), 4) << "two halves";
+  EXPECT_EQ(corners({rectangle(0, 0, 1, 3), rectangle(1, 0, 2, 1)}), 6)
+      << "an L, a corner of one part within an edge of the other";
+  EXPECT_EQ(corners({rectangle(0, 0, 3, 1), rectangle(0, 2, 3, 3), rectangle(0, 1, 1, 2), rectangle(2, 1, 3, 2)}), 8)
+      << "around a hole";
+}
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+
+CGAL::Polygon_2<Exact> exact(std::span<const Vec3> ring) {
+  CGAL::Polygon_2<Exact> polygon;
+  for (const Vec3& x : ring) polygon.push_back({x.x() / x.z(), x.y() / x.z()});
+  if (polygon.orientation() == CGAL::CLOCKWISE) polygon.reverse_orientation();
+  return polygon;
+}
+
+int corners_of(const CGAL::Polygon_set_2<Exact>& set) {
+  std::vector<CGAL::Polygon_with_holes_2<Exact>> parts;
+  set.polygons_with_holes(std::back_inserter(parts));
+  std::size_t count = 0;
+  for (const auto& part : parts) {
+    count += part.outer_boundary().size();
+    for (auto hole = part.holes_begin(); hole != part.holes_end(); ++hole) count += hole->size();
+  }
+  return static_cast<int>(count);
+}
+
+// What is seen of a rectangle past up to nine triangles anywhere before it.
+TEST(UnionCorners, of_what_is_seen_past_triangles_are_those_of_exact_booleans) {
+  Dice dice(17);
+  for (int k = 0; k < 100; ++k) {
+    const Ring target = rectangle(-1, -1, dice.in(0, 1), dice.in(0, 1), 1);
+    CGAL::Polygon_set_2<Exact> seen(exact(target));
+    HiddenPart part;
+    part.start(target);
+    for (int i = 0; i < 1 + k % 9; ++i) {
+      const auto corner = [&] {
+        const double z = dice.in(0.2, 0.9);
+        return Vec3(z * dice.in(-1.2, 1.2), z * dice.in(-1.2, 1.2), z);
+      };
+      const Ring triangle{corner(), corner(), corner()};
+      seen.difference(exact(triangle));
+      std::vector<HalfSpace> shadow;
+      ASSERT_TRUE(ConvexBlocker::polygon(triangle).append_shadow(Vec3::Zero(), 1e-12, shadow));
+      part.hide(shadow);
+    }
+    EXPECT_EQ(UnionCorners()(part.seen(), Vec3::UnitZ(), 1e-9), corners_of(seen)) << k;
+  }
+}
+
+}  // namespace
+}  // namespace interflect::geometry
