@@ -6,6 +6,7 @@
 
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/quadrature.h"
+#include "geometry/segment.h"
 #include "scene/place.h"
 
 namespace interflect::fem {
@@ -31,18 +32,12 @@ const Rule& rule_of(int rung, std::size_t corners) {
   return ladder[static_cast<std::size_t>(rung)].of(corners);
 }
 
-double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double t = std::clamp(along.dot(x - a) / along.squaredNorm(), 0.0, 1.0);
-  return (x - a - t * along).norm();
-}
-
 /// From the outer element to what shapes the shadows on it: the blockers' edges and the inner element [m].
 double distance_of(const ElementShape& outer, const ElementShape& inner, std::span<const PairShadow> shadows) {
   double distance = (outer.centroid - inner.centroid).norm() - inner.radius;
   for (const PairShadow& shadow : shadows)
     for (const PairShadow::Edge& edge : shadow.edges())
-      distance = std::min(distance, distance_to_segment(outer.centroid, edge.from, edge.to));
+      distance = std::min(distance, geometry::distance_to_segment(outer.centroid, edge.from, edge.to));
   return distance;
 }
 

@@ -1,13 +1,19 @@
 #include "fem/form_factor/pair_integral.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "fem/form_factor/adaptive_lambert.h"
 #include "fem/form_factor/far_field.h"
+#include "fem/form_factor/polygon_pair.h"
+#include "fem/form_factor/rectangle_pair.h"
 #include "geometry/clip.h"
 
 namespace interflect::fem {
 
 namespace {
+
+constexpr std::size_t most_lambert_cells = 1000;
 
 /// Heights of an element's corners over another's plane, and what of them is rounding at most [m].
 struct Heights {
@@ -26,10 +32,31 @@ Heights heights(const ElementShapes& shapes, const ElementShape& of, const Eleme
   return {lowest, highest, shapes.height_tolerance(over, of.centroid)};
 }
 
+bool within(const Integral& integral, double tolerance) { return integral.error <= tolerance * integral.value; }
+
+/// K is in [0, min(A_i, A_j)]: what lies beyond is rounding.
+Integral bounded(const Integral& integral, const ElementShape& a, const ElementShape& b) {
+  const double value = std::clamp(integral.value, 0.0, std::min(a.area, b.area));
+  return {value, std::max(integral.error, std::abs(value - integral.value))};
+}
+
+/// The guard: the first of rectangles in closed form, Lambert's formula without a cut, polygons in closed form that
+/// promises the tolerance, in the order of their costs (0.4, 3 and 9 microseconds); where rounding forbids, cells of
+/// Lambert's formula.
 Integral near_field(const ElementShape& a, const ElementShape& b, double tolerance) {
+  if (const auto rectangles = rectangle_pair(a.ring(), b.ring()); rectangles && within(*rectangles, tolerance))
+    return *rectangles;
   const bool a_is_outer = a.radius <= b.radius;
   const ElementShape &outer = a_is_outer ? a : b, &inner = a_is_outer ? b : a;
-  return adaptive_lambert(outer.ring(), outer.plane.normal, inner.ring(), tolerance);
+  const auto lambert = [&](std::size_t most_cells) {
+    return adaptive_lambert(outer.ring(), outer.plane.normal, inner.ring(), {tolerance, most_cells});
+  };
+  if (expected_lambert_error(outer.ring(), inner.ring()) <= tolerance)
+    if (const Integral uncut = lambert(1); within(uncut, tolerance)) return uncut;
+  const Integral closed = polygon_pair(outer.ring(), inner.ring(), tolerance);
+  if (within(closed, tolerance)) return closed;
+  const Integral cut = lambert(most_lambert_cells);
+  return closed.error < cut.error ? closed : cut;
 }
 
 Pieces pieces_of(const geometry::ConvexRing& ring, const geometry::Plane& plane) {
@@ -61,10 +88,17 @@ PairIntegral PairIntegrator::operator()(Index i, Index j) const {
     const Integral part = clipped_pair(a, b);
     return {part.value > 0.0 ? Facing::crossing : Facing::away, part.value, part.error};
   }
-  const Integral whole = unclipped(a, b, [&](int level) {
-    return far_field(shapes_.nodes(i, level), a.plane, shapes_.nodes(j, level), b.plane);
-  });
+  const Integral whole = unclipped(
+      a, b, [&](int level) { return far_field(shapes_.nodes(i, level), a.plane, shapes_.nodes(j, level), b.plane); });
   return {Facing::full, whole.value, whole.error};
+}
+
+/// Of heights over planes, which are rounded on the scale of the distance: 2^-52 r of either.  It is nothing to common
+/// tolerances.
+double far_rounding(const ElementShape& a, const ElementShape& b, double tolerance) {
+  if (tolerance > 1e-7) return 0.0;
+  return 2 * std::numeric_limits<double>::epsilon() * inv_pi * a.area * b.area /
+         (a.centroid - b.centroid).squaredNorm();
 }
 
 /// The far field where it will do, from the level that promises to, and else the near field.
@@ -72,14 +106,16 @@ template <class FarField>
 Integral PairIntegrator::unclipped(const ElementShape& a, const ElementShape& b, const FarField& far) const {
   const FarPair pair = far_pair(a, b);
   int level = far_field_level(pair, tolerance_);
-  if (level == ElementShapes::levels) return near_field(a, b, tolerance_);
+  if (level == ElementShapes::levels) return bounded(near_field(a, b, tolerance_), a, b);
+  const double rounding = far_rounding(a, b, tolerance_);
   double before = far(level - 1);
   for (; level < ElementShapes::levels; ++level) {
-    const double value = std::max(0.0, far(level)), error = far_field_error(level, pair, value - before, value);
+    const double value = std::max(0.0, far(level)),
+                 error = far_field_error(level, pair, value - before, value) + rounding;
     if (error <= tolerance_ * value) return {value, error};
     before = value;
   }
-  return near_field(a, b, tolerance_);
+  return bounded(near_field(a, b, tolerance_), a, b);
 }
 
 Integral PairIntegrator::clipped_pair(const ElementShape& a, const ElementShape& b) const {

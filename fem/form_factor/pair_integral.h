@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fem/form_factor/adaptive_lambert.h"
 #include "fem/form_factor/element_shapes.h"
+#include "fem/form_factor/integral.h"
 
 namespace interflect::fem {
 
@@ -25,12 +25,25 @@ struct Pieces {
 };
 Pieces pieces_in_front(const ElementShape& of, const geometry::Plane& plane);
 
-/// Unoccluded form factors of pairs.
+/// Unoccluded form factors of pairs, each by the cheapest of four ways that states to be within the tolerance:
 ///
-/// Far pairs take a product rule on both elements, of the lowest order whose estimated error is below the tolerance
-/// (far_field.h); near and touching ones Lambert's formula on one and adaptive Gauss quadrature on the other
-/// (adaptive_lambert.h).  The outer element is the smaller one: the integrand over it varies on the scale of the distance,
-/// which is the same for both choices, and so it is the smoother the smaller the outer element is.
+/// 1. far pairs by a product rule on both elements, of the lowest order that will do (far_field.h);
+/// 2. rectangles along common axes in closed form (rectangle_pair.h);
+/// 3. where no corner or edge is near, Lambert's formula on one and one Gauss rule on the other (adaptive_lambert.h).
+///    The outer element is the smaller one: the integrand over it varies on the scale of the distance, which is the
+///    same for both choices, and so it is the smoother the smaller the outer element is;
+/// 4. near and touching pairs in closed form (polygon_pair.h).
+///
+/// What no closed form can do, because what is summed cancels (slivers, polygons nearly edge-on, or far apart at
+/// tolerances below 1e-9), is left to adaptive cells of Lambert's formula.
+///
+/// K is in [0, min(A_i, A_j)]; lengths times 2^k give the same digits.
+///
+/// Accuracy: the true error is below the stated one in 99 % of pairs. The stated one is within the tolerance down to
+/// 1e-13, but for pairs whose K is below about 4e-3 min(A), as of elements nearly in one plane: those may miss 1e-12
+/// and less.
+///
+/// Test: tests/fem/closed_form_pairs.cpp, tests/fem/stated_errors.cpp
 class PairIntegrator {
  public:
   PairIntegrator(std::span<const scene::SurfacePatch> patches, double tolerance)
