@@ -1,11 +1,10 @@
 #include "geometry/union_corners.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace interflect::geometry {
 
-int UnionCorners::operator()(const RingList& rings, const Vec3& normal, double same_place) {
+std::span<const Vec3> UnionCorners::operator()(const RingList& rings, const Vec3& normal, double same_place) {
   places_.clear();
   for (std::size_t r = 0; r < rings.size(); ++r) {
     const auto ring = rings[r];
@@ -16,9 +15,10 @@ int UnionCorners::operator()(const RingList& rings, const Vec3& normal, double s
     }
   }
   constexpr double level = 1e-6;  // [rad]
-  return static_cast<int>(std::count_if(places_.begin(), places_.end(), [](const Place& place) {
-    return std::abs(std::remainder(place.angle, pi)) > level;
-  }));
+  corners_.clear();
+  for (const Place& place : places_)
+    if (std::abs(std::remainder(place.angle, pi)) > level) corners_.push_back(place.at);
+  return corners_;
 }
 
 void UnionCorners::add(const Vec3& at, double angle, double same_place) {

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geometry/hidden_part.h"
 
 namespace interflect::geometry {
 
-/// Counts the corners of a union of convex polygons that do not overlap, as a cut leaves them: places where their
+/// The corners of a union of convex polygons that do not overlap, as a cut leaves them: places where their
 /// angles do not add up to a straight line or a full turn.
 ///
 /// Where a corner of one lies within an edge of another, the straight angle of that edge does not count, so that there
@@ -16,7 +17,8 @@ class UnionCorners {
  public:
   /// @param rings       counter-clockwise about `normal`, or all clockwise
   /// @param same_place  corners as near are one [the rings' unit]
-  int operator()(const RingList& rings, const Vec3& normal, double same_place);
+  /// @return  valid until the next call
+  std::span<const Vec3> operator()(const RingList& rings, const Vec3& normal, double same_place);
 
  private:
   struct Place {
@@ -26,6 +28,7 @@ class UnionCorners {
   void add(const Vec3& at, double angle, double same_place);
 
   std::vector<Place> places_;
+  std::vector<Vec3> corners_;
 };
 
 }  // namespace interflect::geometry

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/quadrature.h"
@@ -22,9 +23,11 @@ constexpr std::size_t most_events = 24;  ///< beyond, the element is quartered f
 constexpr std::size_t most_kinks = 12;   ///< of one cell at a time
 constexpr int deepest = 5;
 constexpr int rungs = 4;
+constexpr double smooth = 0.5;       ///< cells are climbed on whose radius is at most that part of their distance
 constexpr double same_place = 1e-9;  ///< of corners, beside the radius of the inner element
 
-/// Rules of rising degree: 1, 2, 4, 6 on triangles, 1, 3, 5, 7 on quads.
+/// Of a rung's rule: 1, 2, 4, 6 on triangles, 1, 3, 5, 7 on quads.
+int degree_of(int rung, std::size_t corners) { return corners == 4 || rung == 0 ? 2 * rung + 1 : 2 * rung; }
 const Rule& rule_of(int rung, std::size_t corners) {
   static const std::array<RulePair, rungs> ladder = {
       RulePair{triangle_rule(1), quad_rule(1)}, RulePair{triangle_rule(2), quad_rule(2)},
@@ -32,13 +35,27 @@ const Rule& rule_of(int rung, std::size_t corners) {
   return ladder[static_cast<std::size_t>(rung)].of(corners);
 }
 
-/// From the outer element to what shapes the shadows on it: the blockers' edges and the inner element [m].
-double distance_of(const ElementShape& outer, const ElementShape& inner, std::span<const PairShadow> shadows) {
-  double distance = (outer.centroid - inner.centroid).norm() - inner.radius;
+/// From a point to what shapes the shadows there: the edges of the inner element and the blockers' [m].
+double distance_to_edges(const Vec3& x, std::span<const Vec3> inner, std::span<const PairShadow> shadows) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < inner.size(); ++k)
+    distance = std::min(distance, geometry::distance_to_segment(x, inner[k], inner[k + 1 < inner.size() ? k + 1 : 0]));
   for (const PairShadow& shadow : shadows)
     for (const PairShadow::Edge& edge : shadow.edges())
-      distance = std::min(distance, geometry::distance_to_segment(outer.centroid, edge.from, edge.to));
+      distance = std::min(distance, geometry::distance_to_segment(x, edge.from, edge.to));
   return distance;
+}
+
+/// Some large odd number for each line of each shadow.
+std::uint64_t line_code(std::size_t shadow, std::size_t line) {
+  return (2 * (std::uint64_t{shadow} << 20 | std::uint64_t{line}) + 1) * 0x9e3779b97f4a7c15u;
+}
+
+std::uint64_t corners_on(const geometry::HalfSpace& half, std::span<const Vec3> corners, double near) {
+  const double margin = near * half.normal.norm();
+  return static_cast<std::uint64_t>(std::count_if(corners.begin(), corners.end(), [&](const Vec3& x) {
+    return std::abs(half.normal.dot(x) - half.offset) <= margin;
+  }));
 }
 
 double radius_of(std::span<const Vec3> ring) {
@@ -53,7 +70,7 @@ double radius_of(std::span<const Vec3> ring) {
 class HiddenExchange::Pair {
  public:
   Pair(HiddenExchange& work, const ElementShape& outer, const ElementShape& inner)
-      : work_(work), outer_(outer), inner_(inner), distance_(distance_of(outer, inner, shadows())) {
+      : work_(work), outer_(outer), inner_(inner) {
     work_.cells_.clear();
   }
 
@@ -79,7 +96,7 @@ class HiddenExchange::Pair {
       cells.pop_back();
       value_ -= worst.value;
       error_ -= worst.error;
-      if (worst.rung + 1 < rungs && ratio(worst) <= 0.5) {
+      if (worst.rung + 1 < rungs && ratio(worst) <= smooth) {
         climb(worst);
         push(worst);
       } else if (!worst.kinked || !follow_kinks(worst)) {
@@ -107,7 +124,7 @@ class HiddenExchange::Pair {
   }
   /// Half of it may be hidden, or all, or nothing.
   void give_up(std::span<const Vec3> ring) {
-    const Cell cell{{ring[0], ring[1], ring[2], ring[ring.size() - 1]}, ring.size(), Hides::all, {}};
+    Cell cell{{ring[0], ring[1], ring[2], ring[ring.size() - 1]}, ring.size(), Hides::all, {}};
     const double half = 0.5 * integral(cell);
     all_ = false;
     given_up_.value += half;
@@ -126,24 +143,35 @@ class HiddenExchange::Pair {
     const RuleNode centre = rule_of(0, cell.corners).front();
     const Vec3 eye = point_on(cell.ring(), centre.u, centre.v);
     cell.hides = Hides::none;
+    cell.ratio = radius_of(cell.ring()) / distance_to_edges(eye, inner_.ring(), shadows());
     for (std::size_t k = 0; k < shadows().size(); ++k) {
       work_.look(eye, inner_);
       work_.hide(eye, shadows()[k], work_.part_);
       if (work_.part_.hidden().size() == 0) continue;
       cell.hides = work_.part_.seen().size() == 0 ? Hides::all : Hides::part;
-      if (cell.hides == Hides::all) return;
+      if (cell.hides == Hides::all) {
+        cell.ratio = radius_of(cell.ring()) / distance_to_edges(eye, inner_.ring(), {});
+        return;
+      }
       cell.parts.add(k);
     }
-    cell.kinked = cell.parts.several() && form_changes(cell, eye);
+    if (cell.parts.several()) find_form(cell, eye);
   }
-  /// From near the corners: on the lines themselves one of two forms is as good as the other.
-  bool form_changes(const Cell& cell, const Vec3& centre) const {
+  /// How many corners there are to what is seen past several, and whether there are as many from near the cell's
+  /// corners and the middles of its sides: on the lines themselves one of two forms is as good as the other.
+  void find_form(Cell& cell, const Vec3& centre) const {
     constexpr double inwards = 1e-3;
-    const int there = work_.corners_seen(centre, inner_, cell.parts);
+    cell.form = form_seen(cell, centre);
     const auto ring = cell.ring();
-    return std::any_of(ring.begin(), ring.end(), [&](const Vec3& corner) {
-      return work_.corners_seen(corner + inwards * (centre - corner), inner_, cell.parts) != there;
-    });
+    for (std::size_t k = 0; k < ring.size() && !cell.kinked; ++k) {
+      const Vec3& next = ring[k + 1 < ring.size() ? k + 1 : 0];
+      for (const Vec3& x : {ring[k], Vec3(0.5 * (ring[k] + next))})
+        cell.kinked = cell.kinked || form_seen(cell, x + inwards * (centre - x)) != cell.form;
+    }
+  }
+  std::uint64_t form_seen(const Cell& cell, const Vec3& eye) const {
+    look_past(cell, eye);
+    return work_.form_seen(eye, inner_, cell.parts);
   }
   /// Cuts a cell along what lines there are of two blockers together; false where there are none, or too many.
   bool follow_kinks(const Cell& cell) {
@@ -169,36 +197,42 @@ class HiddenExchange::Pair {
   }
   void climb(Cell& cell) const {
     ++cell.rung;
-    const double before = cell.value, q = ratio(cell);
+    const double before = cell.value;
     cell.value = integral(cell);
-    const double c = cell.corners == 4 && !cell.parts.several() ? 0.5 : 2;
-    cell.error = std::min(1.0, c * q) * std::abs(cell.value - before);
+    cell.error = error_of(cell, std::abs(cell.value - before));
+  }
+  static double error_of(const Cell& cell, double difference) {
+    if (cell.kinked) return difference;
+    const bool quad = cell.corners == 4;
+    const double c = quad && !cell.parts.several() ? 0.5 : 2, q = ratio(cell);
+    const double typical = q <= smooth ? 0.2 * std::pow(q, degree_of(cell.rung, cell.corners) + 1) * cell.value : 0;
+    return std::min(1.0, c * q) * difference + typical;
   }
   /// Of the cell to the distance over which its integrand varies; 1 where that has kinks.
-  double ratio(const Cell& cell) const {
-    if (cell.kinked) return 1;
-    const double radius = radius_of(cell.ring());
-    return radius < distance_ ? radius / distance_ : 1;
-  }
-  double integral(const Cell& cell) const {
+  static double ratio(const Cell& cell) { return cell.kinked ? 1 : std::min(1.0, cell.ratio); }
+  /// By the rule of its rung, whose nodes may find a kink.
+  double integral(Cell& cell) const {
     const double scale = cell.corners == 3 ? 0.5 : 1.0;
     double sum = 0;
     for (const RuleNode& node : rule_of(cell.rung, cell.corners))
       sum += node.weight * jacobian(cell.ring(), node.u, node.v) * factor(cell, point_on(cell.ring(), node.u, node.v));
     return scale * sum;
   }
-  double factor(const Cell& cell, const Vec3& eye) const {
+  double factor(Cell& cell, const Vec3& eye) const {
     const Vec3& normal = outer_.plane.normal;
     if (cell.hides == Hides::all) return point_to_polygon_above_horizon(eye, normal, inner_.ring());
+    look_past(cell, eye);
+    if (cell.parts.several() && !cell.kinked) cell.kinked = work_.form_seen(eye, inner_, cell.parts) != cell.form;
+    return work_.factor_of_hidden(normal);
+  }
+  void look_past(const Cell& cell, const Vec3& eye) const {
     work_.look(eye, inner_);
     for (std::size_t k = 0; k < shadows().size(); ++k)
       if (cell.parts.has(k)) work_.hide(eye, shadows()[k], work_.part_);
-    return work_.factor_of_hidden(normal);
   }
 
   HiddenExchange& work_;
   const ElementShape &outer_, &inner_;
-  double distance_;
   double value_ = 0, error_ = 0;
   bool all_ = true;    ///< is hidden from all cells
   Integral given_up_;  ///< parts with too many events
@@ -260,12 +294,20 @@ double HiddenExchange::factor_of_hidden(const Vec3& normal) const {
   return sum;
 }
 
-/// How many corners there are to what is seen of the inner element past the shadows.
-int HiddenExchange::corners_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past) {
-  look(eye, inner);
-  for (std::size_t k = 0; k < shadow_count_; ++k)
-    if (past.has(k)) hide(eye, shadows_[k], part_);
-  return union_corners_(part_.seen(), inner.plane.normal, same_place * inner.radius);
+/// The form of what is seen of the inner element past some, as one number: how many corners it has on each line of each
+/// shadow.
+std::uint64_t HiddenExchange::form_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past) {
+  const double near = same_place * inner.radius;
+  const std::span<const Vec3> corners = union_corners_(part_.seen(), inner.plane.normal, near);
+  std::uint64_t form = corners.size();
+  for (std::size_t k = 0; k < shadow_count_; ++k) {
+    if (!past.has(k) || shadows_[k].touches_eyes()) continue;
+    shadow_.clear();
+    shadows_[k].append(eye, shadow_);
+    for (std::size_t line = 0; line < shadow_.size(); ++line)
+      form += line_code(k, line) * corners_on(shadow_[line], corners, near);
+  }
+  return form;
 }
 
 }  // namespace interflect::fem

@@ -27,15 +27,21 @@ struct HiddenIntegral {
 ///   K_hidden = int_{outer} F_{dA -> hidden part of inner} dA  [m²],    K = K_unoccluded - K_hidden.
 ///
 /// The outer element is cut along the lines where the shadow changes its form (ShadowEvents).  On what lies between,
-/// the integrand is smooth, and a ladder of rules is climbed: with values v_0, v_1, .. (1, 3, 6, .. nodes) the error of
-/// v_l is taken for |v_l - v_{l-1}|, the error of the step before, times c cell / distance, at most 1: what a step
-/// leaves is of one order higher in that.  (c = 1/2 on quads past one blocker, 2 otherwise: fitted,
+/// the integrand is smooth, and a ladder of rules is climbed: with values v_0, v_1, .. (1, 3, 6, .. nodes) of rules of
+/// degree d_0, d_1, .. and q = radius of the cell / its distance from the edges that shape the shadow, the error of v_l
+/// is taken for
+///
+///   min(1, c q) |v_l - v_{l-1}| + 0.2 q^{d_l + 1} v_l   (the second where q <= 1/2)
+///
+/// the error of the step before, of which a step leaves what is one order higher, and what is typical, since a
+/// difference may be small by chance.  (c = 1/2 on quads past one blocker, else 2: fitted,
 /// tests/fem/claimed_errors.cpp.)  In a cell a blocker hides nothing, all, or a part: what hides nothing or all of
 /// `inner` from the centroid does so from the whole cell.  Where several hide parts each, kinks remain between the
-/// lines, across which what is seen past all of them gains or loses corners.  A cell near all of whose corners it has
-/// as many as in the middle is taken for smooth.  In one with a kink the factor is 1; it is cut along those lines that
-/// go through a corner of one blocker and an edge of another, and then quartered (what is left are surfaces of second
-/// degree, through three edges).  The cell with the largest error goes first, until the errors sum to the tolerance.
+/// lines, across which what is seen past all of them gains or loses corners, or has them on other shadows' edges.  A
+/// cell from whose middle, nodes, and from near whose corners and middles of sides it has as many on each edge is taken
+/// for smooth.  In one with a kink the error is the difference; it is cut along those lines that go through a corner of
+/// one blocker and an edge of another, and then quartered (what is left are surfaces of second degree, through three
+/// edges).  The cell with the largest error goes first, until the errors sum to the tolerance.
 ///
 /// Not shared between threads: it holds the work's memory.
 class HiddenExchange {
@@ -72,8 +78,10 @@ class HiddenExchange {
     std::array<Vec3, 4> corner;
     std::size_t corners;
     Hides hides = Hides::none;
-    ShadowSet parts;      ///< the shadows that hide a part each
-    bool kinked = false;  ///< what several leave to be seen has another form here than there
+    ShadowSet parts;         ///< the shadows that hide a part each
+    std::uint64_t form = 0;  ///< where there are several: of what they leave to be seen
+    bool kinked = false;     ///< that has another form here than there
+    double ratio = 1;        ///< of its radius to its distance from the edges that shape the shadows
     int rung = 0;
     double value = 0, error = 0;
     std::span<const Vec3> ring() const { return {corner.data(), corners}; }
@@ -87,7 +95,7 @@ class HiddenExchange {
   void hide(const Vec3& eye, const PairShadow& shadow, geometry::HiddenPart& part);
   void hide(const Vec3& eye, const geometry::ConvexBlocker& blocker, geometry::HiddenPart& part);
   double factor_of_hidden(const Vec3& normal) const;
-  int corners_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past);
+  std::uint64_t form_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past);
 
   ShadowEvents events_;
   double rounding_;

@@ -13,19 +13,20 @@ namespace {
 using test::Dice;
 using test::rectangle;
 
-int corners(const std::vector<Ring>& rings) {
+std::size_t corners(const std::vector<Ring>& rings) {
   RingList list;
   for (const Ring& ring : rings) list.push_back(ring);
-  return UnionCorners()(list, Vec3::UnitZ(), 1e-9);
+  UnionCorners of;
+  return of(list, Vec3::UnitZ(), 1e-9).size();
 }
 
 TEST(UnionCorners, of_cut_up_figures_are_those_of_the_figures) {
-  EXPECT_EQ(corners({}), 0);
-  EXPECT_EQ(corners({rectangle(0, 0, 1, 1)}), 4);
-  EXPECT_EQ(corners({rectangle(0, 0, 1, 1), rectangle(1, 0, 3, 1)}), 4) << "two halves";
-  EXPECT_EQ(corners({rectangle(0, 0, 1, 3), rectangle(1, 0, 2, 1)}), 6)
+  EXPECT_EQ(corners({}), 0u);
+  EXPECT_EQ(corners({rectangle(0, 0, 1, 1)}), 4u);
+  EXPECT_EQ(corners({rectangle(0, 0, 1, 1), rectangle(1, 0, 3, 1)}), 4u) << "two halves";
+  EXPECT_EQ(corners({rectangle(0, 0, 1, 3), rectangle(1, 0, 2, 1)}), 6u)
       << "an L, a corner of one part within an edge of the other";
-  EXPECT_EQ(corners({rectangle(0, 0, 3, 1), rectangle(0, 2, 3, 3), rectangle(0, 1, 1, 2), rectangle(2, 1, 3, 2)}), 8)
+  EXPECT_EQ(corners({rectangle(0, 0, 3, 1), rectangle(0, 2, 3, 3), rectangle(0, 1, 1, 2), rectangle(2, 1, 3, 2)}), 8u)
       << "around a hole";
 }
 
@@ -38,7 +39,7 @@ CGAL::Polygon_2<Exact> exact(std::span<const Vec3> ring) {
   return polygon;
 }
 
-int corners_of(const CGAL::Polygon_set_2<Exact>& set) {
+std::size_t corners_of(const CGAL::Polygon_set_2<Exact>& set) {
   std::vector<CGAL::Polygon_with_holes_2<Exact>> parts;
   set.polygons_with_holes(std::back_inserter(parts));
   std::size_t count = 0;
@@ -46,7 +47,7 @@ int corners_of(const CGAL::Polygon_set_2<Exact>& set) {
     count += part.outer_boundary().size();
     for (auto hole = part.holes_begin(); hole != part.holes_end(); ++hole) count += hole->size();
   }
-  return static_cast<int>(count);
+  return count;
 }
 
 // What is seen of a rectangle past up to nine triangles anywhere before it.
@@ -68,7 +69,8 @@ TEST(UnionCorners, of_what_is_seen_past_triangles_are_those_of_exact_booleans) {
       ASSERT_TRUE(ConvexBlocker::polygon(triangle).append_shadow(Vec3::Zero(), 1e-12, shadow));
       part.hide(shadow);
     }
-    EXPECT_EQ(UnionCorners()(part.seen(), Vec3::UnitZ(), 1e-9), corners_of(seen)) << k;
+    UnionCorners of;
+    EXPECT_EQ(of(part.seen(), Vec3::UnitZ(), 1e-9).size(), corners_of(seen)) << k;
   }
 }
 
