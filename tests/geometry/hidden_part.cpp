@@ -1,16 +1,16 @@
 #include "geometry/hidden_part.h"
 
-#include <CGAL/Boolean_set_operations_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Polygon_set_2.h>
 #include <gtest/gtest.h>
 
+#include "exact_polygons.h"
 #include "shapes.h"
 
 namespace interflect::geometry {
 namespace {
 
 using test::Dice;
+using test::ExactSet;
+using test::projection;
 using test::rectangle;
 
 constexpr double rounding = 1e-12;
@@ -135,22 +135,9 @@ TEST(ConvexBlocker, casts_no_shadow_of_its_own_on_an_eye_in_it) {
   EXPECT_THROW(ConvexBlocker::solid(std::vector<Ring>{rectangle(0, 0, 1, 1)}), Defect);
 }
 
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-using ExactSet = CGAL::Polygon_set_2<Exact>;
-
-/// Shadow of a triangle before the plane z = 1, counter-clockwise, exact.
-CGAL::Polygon_2<Exact> projection(std::span<const Vec3> ring) {
-  CGAL::Polygon_2<Exact> polygon;
-  for (const Vec3& x : ring) polygon.push_back({Exact::FT(x.x()) / Exact::FT(x.z()), Exact::FT(x.y()) / Exact::FT(x.z())});
-  if (polygon.orientation() == CGAL::CLOCKWISE) polygon.reverse_orientation();
-  return polygon;
-}
-
 double area_of(const ExactSet& set) {
-  std::vector<CGAL::Polygon_with_holes_2<Exact>> parts;
-  set.polygons_with_holes(std::back_inserter(parts));
-  Exact::FT area = 0;
-  for (const auto& part : parts) {
+  test::Exact::FT area = 0;
+  for (const auto& part : test::parts_of(set)) {
     area += part.outer_boundary().area();
     for (auto hole = part.holes_begin(); hole != part.holes_end(); ++hole) area += hole->area();  // clockwise: negative
   }

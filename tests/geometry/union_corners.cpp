@@ -1,10 +1,8 @@
 #include "geometry/union_corners.h"
 
-#include <CGAL/Boolean_set_operations_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Polygon_set_2.h>
 #include <gtest/gtest.h>
 
+#include "exact_polygons.h"
 #include "shapes.h"
 
 namespace interflect::geometry {
@@ -30,20 +28,9 @@ TEST(UnionCorners, of_cut_up_figures_are_those_of_the_figures) {
       << "around a hole";
 }
 
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-
-CGAL::Polygon_2<Exact> exact(std::span<const Vec3> ring) {
-  CGAL::Polygon_2<Exact> polygon;
-  for (const Vec3& x : ring) polygon.push_back({x.x() / x.z(), x.y() / x.z()});
-  if (polygon.orientation() == CGAL::CLOCKWISE) polygon.reverse_orientation();
-  return polygon;
-}
-
-std::size_t corners_of(const CGAL::Polygon_set_2<Exact>& set) {
-  std::vector<CGAL::Polygon_with_holes_2<Exact>> parts;
-  set.polygons_with_holes(std::back_inserter(parts));
+std::size_t corners_of(const test::ExactSet& set) {
   std::size_t count = 0;
-  for (const auto& part : parts) {
+  for (const auto& part : test::parts_of(set)) {
     count += part.outer_boundary().size();
     for (auto hole = part.holes_begin(); hole != part.holes_end(); ++hole) count += hole->size();
   }
@@ -55,7 +42,7 @@ TEST(UnionCorners, of_what_is_seen_past_triangles_are_those_of_exact_booleans) {
   Dice dice(17);
   for (int k = 0; k < 100; ++k) {
     const Ring target = rectangle(-1, -1, dice.in(0, 1), dice.in(0, 1), 1);
-    CGAL::Polygon_set_2<Exact> seen(exact(target));
+    test::ExactSet seen(test::projection(target));
     HiddenPart part;
     part.start(target);
     for (int i = 0; i < 1 + k % 9; ++i) {
@@ -64,7 +51,7 @@ TEST(UnionCorners, of_what_is_seen_past_triangles_are_those_of_exact_booleans) {
         return Vec3(z * dice.in(-1.2, 1.2), z * dice.in(-1.2, 1.2), z);
       };
       const Ring triangle{corner(), corner(), corner()};
-      seen.difference(exact(triangle));
+      seen.difference(test::projection(triangle));
       std::vector<HalfSpace> shadow;
       ASSERT_TRUE(ConvexBlocker::polygon(triangle).append_shadow(Vec3::Zero(), 1e-12, shadow));
       part.hide(shadow);
