@@ -10,6 +10,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/format.h"
+#include "fem/closure.h"
 
 namespace interflect::apps {
 namespace {
@@ -99,6 +100,25 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
   command.add_option("SCENE", scene, "Scene file (docs/scene.md)")->required();
 }
 
+/// How much a form-factor method does; `when_0` is what a tolerance of 0 means, where that is the default.
+void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples, int& resolution, const std::string& when_0 = "") {
+  CLI::Option* tolerance = command.add_option("--tolerance", row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
+                               ->check(CLI::Range(1e-9, 0.5))->capture_default_str();
+  if (!when_0.empty()) tolerance->default_str(when_0);
+  command.add_option("--samples", samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
+      ->capture_default_str();
+  command.add_option("--resolution", resolution, "Cells across a hemicube or a plane")->check(CLI::Range(2, 8192))
+      ->capture_default_str();
+}
+
+void add_closure(CLI::App& command, std::string& closure) {
+  std::vector<std::string> names = fem::closure_names();
+  names.emplace_back("none");
+  command.add_option("--closure", closure, "Change the form factors least so that rows, with an open scene's environment, add up to 1")
+      ->check(CLI::IsMember(names))->capture_default_str();
+  command.add_flag_callback("--restore-closure", [&closure] { closure = "scaling"; }, "The same as --closure scaling");
+}
+
 void add_radiosity(CLI::App& command, SolveOptions& options) {
   fem::RadiositySettings& s = options.settings;
   CLI::Option* out = command.add_option("-o,--out", options.out, "Folder for the results")->required();
@@ -118,7 +138,10 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
       ->check(CLI::Range(1e-15, 0.1))->capture_default_str();
   command.add_option("--intersector", s.intersector, "Ray caster; brute is slow, double precision, for checking")
       ->check(CLI::IsMember(raycast::ray_caster_names()))->capture_default_str();
-  command.add_flag("--restore-closure", s.restore_closure, "Closed scenes: change the form factors least so that rows sum to 1");
+  add_closure(command, s.closure);
+  command.add_option("--drop-below", s.drop_below, "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
+      ->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  add_effort(command, s.row_tolerance, s.samples, s.resolution, "none: --quadrature-tolerance");
   command.add_flag_callback("--forecast", [&options, out] {
     options.forecast_only = true;
     out->required(false);
@@ -187,8 +210,12 @@ void add_view_factors(CLI::App& app, Command& chosen) {
       app, "view-factors", "View factors of a mesh or scene, with an error on each", core::format("interflect view-factors %s -o F.h5 --element-size 0.1", example_scene),
       view_factors, options, chosen);
   command->add_option("FILE", options->input, "OBJ, PLY, STL, glTF, VTU, VTP, View3D's .vs3, or a scene (.json)")->required();
-  command->add_option("-o,--out", options->out, "F.h5, F.npz, F.mtx or F.csv; the others are made from an .h5 beside them")->required();
-  command->add_option("--tolerance", options->tolerance, "Largest sum of a row's errors")->check(CLI::Range(1e-9, 0.5))->capture_default_str();
+  CLI::Option* out = command->add_option("-o,--out", options->out, "F.h5, F.npz, F.mtx or F.csv; the others are made from an .h5 beside them")->required();
+  command->add_flag_callback("--forecast", [forecast = &options->forecast_only, out] {
+    *forecast = true;
+    out->required(false);
+  }, "Say what it would need, and stop: no --out is needed");
+  add_effort(*command, options->tolerance, options->samples, options->resolution);
   command->add_option("--form-factors", options->form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
   command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: one element a face")->check(Length());
@@ -198,10 +225,6 @@ void add_view_factors(CLI::App& app, Command& chosen) {
   command->add_option("--only-occlude", options->geometry.only_occlude, "Surfaces or groups that hide, and have no view factors");
   command->add_option("--leave-out", options->geometry.left_out, "Surfaces or groups that neither see nor hide");
   command->add_option("--groups", options->groups, "Sum the factors of a .csv by this")->check(CLI::IsMember({"surface", "group", "material"}));
-  command->add_option("--samples", options->samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
-      ->capture_default_str();
-  command->add_option("--resolution", options->resolution, "Cells across a hemicube or a plane")->check(CLI::Range(2, 8192))
-      ->capture_default_str();
 }
 
 void add_compare_form_factors(CLI::App& app, Command& chosen) {

@@ -50,8 +50,12 @@ results::Record settings_record(const fem::RadiositySettings& settings, const Ra
       .add("solver_tolerance", settings.stopping.tolerance)
       .add("intersector", settings.intersector)
       .add("quadrature_tolerance", settings.quadrature_tolerance)
+      .add("row_tolerance", settings.row_tolerance)
       .add("visibility_rays", settings.visibility_rays)
-      .add("restore_closure", settings.restore_closure)
+      .add("samples", settings.samples)
+      .add("resolution", settings.resolution)
+      .add("drop_below", settings.drop_below)
+      .add("closure", settings.closure)
       .add("max_memory_bytes", whole(settings.max_memory));
   return record;
 }
@@ -87,7 +91,13 @@ results::Record form_factor_record(const RadiositySolution& solution) {
       .add("row_sum_mean", solution.rows.mean)
       .add("row_sum_lowest", solution.rows.lowest)
       .add("row_sum_highest", solution.rows.highest)
-      .add("closure_correction", solution.closure_correction);
+      .add("largest_row_error", solution.largest_row_error)
+      .add("tolerance_met", solution.tolerance_met)
+      .add("kept_share", solution.kept_share)
+      .add("dropped_mean", solution.mean_dropped)
+      .add("dropped_highest", solution.largest_dropped)
+      .add("closure_correction", solution.closure_correction)
+      .add("environment_mean", fem::mean_environment(solution));
   return record;
 }
 
@@ -100,6 +110,19 @@ std::string energy_text(const SolvedScene& solved) {
                       "residual %.1e\n", emitted, scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(),
                       part(e.on_backs).c_str(), part(e.form_factor_error).c_str(),
                       emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0);
+}
+
+/// What was asked of the matrix beside its entries: tolerance, threshold, repair.
+std::string matrix_text(const RadiositySolution& s) {
+  std::string text;
+  if (s.largest_row_error > 0) text += core::format("row errors  sum_j |dF_ij| at most %.1e (estimated)\n", s.largest_row_error);
+  if (s.kept_share < 1)
+    text += core::format("kept        %s of the pairs; dropped sum_j F_ij: mean %.2e, at most %.2e\n", core::format_percent(s.kept_share).c_str(),
+                         s.mean_dropped, s.largest_dropped);
+  if (s.closure_correction > 0) text += core::format("closure     form factors changed by %.2e of their norm\n", s.closure_correction);
+  if (!s.environment.empty())
+    text += core::format("environment %s of what leaves elements, if all sent the same\n", core::format_percent(fem::mean_environment(s)).c_str());
+  return text;
 }
 
 std::string sensors_text(const SolvedScene& solved) {
@@ -177,6 +200,7 @@ std::string solution_text(const SolvedScene& solved) {
                                   s.mesh.longest_edge(), core::format_bytes(s.bytes).c_str());
   text += energy_text(solved);
   text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest, s.rows.highest);
+  text += matrix_text(s);
   text += core::format("irradiance  mean %.5g %s, error about %s (L2, estimated) and noise %s\n", error.mean_irradiance,
                        solved.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
                        core::format_percent(error.relative_noise_l2).c_str());

@@ -1,22 +1,17 @@
 #include <algorithm>
 #include <cstdio>
-#include <limits>
-#include <memory>
 #include <optional>
 
 #include "apps/commands.h"
+#include "apps/factor_request.h"
 #include "apps/read_scene.h"
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
-#include "fem/tiled_assembly.h"
-#include "mesh/uniform.h"
+#include "fem/method_trial.h"
 #include "results/factor_export.h"
-#include "results/factor_store.h"
-#include "results/factors.h"
 #include "results/output_directory.h"
 #include "results/record.h"
-#include "scene/geometry_file.h"
 
 namespace interflect::apps {
 namespace {
@@ -24,36 +19,31 @@ namespace {
 using results::FactorStore;
 using results::FactorStoreWriter;
 
-/// One element a face, where no size is asked for.
-constexpr double no_limit = 1e12;  // [m]
-
-/// Those of a solve, where a size is asked for.
-mesh::ElementMesh mesh_of(const scene::Scene& scene, const ViewFactorOptions& options) {
-  if (!(options.element_size > 0)) return mesh::uniform(scene, no_limit);
-  fem::RadiositySettings settings;
-  settings.element_size = options.element_size;
-  settings.max_memory = std::numeric_limits<double>::infinity();
-  return fem::elements_of(scene, settings);
-}
-
-/// Elements with view factors, in the order of the scene.
-std::vector<scene::SurfacePatch> elements_of(const scene::ExchangeScene& geometry, const ViewFactorOptions& options) {
-  const mesh::ElementMesh mesh = mesh_of(geometry.scene, options);
-  std::vector<scene::SurfacePatch> elements;
-  for (const scene::SurfacePatch& patch : mesh.patches())
-    if (geometry.surfaces.empty() || geometry.surfaces[patch.surface.value].role == scene::ExchangeRole::radiates) elements.push_back(patch);
-  if (elements.empty()) throw core::InputError(options.input.string(), "no surface that view factors could be of");
-  return elements;
-}
-
 /// Tiles that go to a file at once.
 class StoredTiles final : public fem::TileStore {
  public:
   explicit StoredTiles(FactorStoreWriter& writer) : writer_(writer) {}
   Index tile_size() const override { return writer_.tile(); }
   bool is_done(Index I, Index J) const override { return writer_.is_done(I, J); }
-  void write(Index I, Index J, std::span<const double> K, std::span<const double> error) override { writer_.write(I, J, K, error); }
-  void read(Index I, Index J, std::span<double> K, std::span<double> error) const override { writer_.read(I, J, K, error); }
+  void write(Index I, Index J, std::span<const double> K, std::span<const double> error) override {
+    writer_.write(I, J, K, error);
+  }
+  void read(Index I, Index J, std::span<double> K, std::span<double> error) const override {
+    writer_.read(I, J, K, error);
+  }
+
+ private:
+  FactorStoreWriter& writer_;
+};
+
+/// Rows of points, likewise.
+class StoredPoints final : public fem::PointStore {
+ public:
+  explicit StoredPoints(FactorStoreWriter& writer) : writer_(writer) {}
+  bool is_done(Index s) const override { return writer_.is_point_done(s); }
+  void write(Index s, std::span<const double> F, std::span<const double> error) override {
+    writer_.write_point(s, F, error);
+  }
 
  private:
   FactorStoreWriter& writer_;
@@ -75,31 +65,33 @@ std::filesystem::path store_of(const ViewFactorOptions& options) {
   return store.extension() == ".h5" ? store : store.replace_extension(".h5");
 }
 
-/// "group" of every element: what its factors are summed by.
-std::vector<std::string> groups_of(const scene::ExchangeScene& geometry, std::span<const scene::SurfacePatch> elements, const std::string& by) {
-  std::vector<std::string> groups;
-  for (const scene::SurfacePatch& element : elements) {
-    const scene::SurfaceId id = element.surface;
-    if (by == "material")
-      groups.push_back(geometry.scene.material(id).name);
-    else if (by == "group" && id.value < geometry.surfaces.size())
-      groups.push_back(geometry.surfaces[id.value].group);
-    else
-      groups.push_back(geometry.scene.side_name(id, element.side));
-  }
-  return groups;
+/// F.csv -> F.sensors.csv: where formats of one matrix put the points'.
+std::filesystem::path of_sensors(std::filesystem::path file) {
+  const std::string extension = file.extension().string();
+  return file.replace_extension(".sensors" + extension);
 }
 
-void export_factors(const ViewFactorOptions& options, const scene::ExchangeScene& geometry, std::span<const scene::SurfacePatch> elements,
-                    const FactorStore& store) {
-  const std::string extension = options.out.extension().string();
-  if (extension == ".npz") results::write_factors_npz(options.out, store.elements(), store.rows());
-  if (extension == ".mtx") results::write_factors_mtx(options.out, store.elements(), store.rows());
-  if (extension != ".csv") return;
-  if (options.groups.empty())
+void export_csv(const ViewFactorOptions& options, const FactorRequest& request, const FactorStore& store) {
+  const bool any_points = !store.points().empty();
+  if (options.groups.empty()) {
     results::write_factors_csv(options.out, store.elements(), store.rows());
-  else
-    results::write_grouped_factors_csv(options.out, store.elements(), store.rows(), groups_of(geometry, elements, options.groups));
+    if (any_points) results::write_point_factors_csv(of_sensors(options.out), store.point_factors(), store.size());
+    return;
+  }
+  const std::vector<std::string> groups = groups_of(request, options.groups);
+  results::write_grouped_factors_csv(options.out, store.elements(), store.rows(), groups);
+  if (any_points) results::write_grouped_point_factors_csv(of_sensors(options.out), store.point_factors(), groups);
+}
+
+void export_factors(const ViewFactorOptions& options, const FactorRequest& request, const FactorStore& store) {
+  const std::string extension = options.out.extension().string();
+  if (extension == ".npz")
+    results::write_factors_npz(options.out, store.elements(), store.rows(), store.point_factors());
+  if (extension == ".csv") export_csv(options, request, store);
+  if (extension != ".mtx") return;
+  results::write_factors_mtx(options.out, store.elements(), store.rows());
+  if (!store.points().empty())
+    results::write_point_factors_mtx(of_sensors(options.out), store.point_factors(), store.size());
 }
 
 void require_known_format(const ViewFactorOptions& options) {
@@ -107,14 +99,18 @@ void require_known_format(const ViewFactorOptions& options) {
   const std::vector<std::string> known{".h5", ".npz", ".mtx", ".csv"};
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw core::InputError(options.out.string(), "one of .h5, .npz, .mtx, .csv expected");
-  if (!options.groups.empty() && extension != ".csv") throw core::InputError(options.out.string(), "--groups writes .csv");
+  if (!options.groups.empty() && extension != ".csv")
+    throw core::InputError(options.out.string(), "--groups writes .csv");
 }
 
-/// Of a finished store of the same geometry and settings.
-std::optional<std::vector<double>> row_errors_if_there(const std::filesystem::path& file, const results::FactorStoreKey& key) try {
+/// Of a finished store of the same geometry, settings and sensors.
+std::optional<std::vector<double>> row_errors_if_there(const std::filesystem::path& file,
+                                                       const results::FactorStoreKey& key,
+                                                       const FactorRequest& request) try {
   if (!std::filesystem::exists(file)) return std::nullopt;
   const FactorStore store(file);
   if (store.key().digest != key.digest || store.key().settings != key.settings) return std::nullopt;
+  if (!results::same_points(store.points(), request.points)) return std::nullopt;
   return store.row_error();
 } catch (const core::InputError&) {  // not a store: it will be replaced
   return std::nullopt;
@@ -139,10 +135,12 @@ Summary summary_of(const FactorStore& store) {
   return s;
 }
 
-results::Record record_of(const ViewFactorOptions& options, const FactorStore& store, const Summary& s, const fem::ToleranceReport& report) {
+results::Record record_of(const ViewFactorOptions& options, const FactorStore& store, const Summary& s,
+                          const fem::ToleranceReport& report) {
   results::Record record;
   record.add("input", options.input.string())
       .add("elements", static_cast<std::int64_t>(store.size()))
+      .add("sensor_points", static_cast<std::int64_t>(store.points().size()))
       .add("form_factors", options.form_factors)
       .add("tolerance", options.tolerance)
       .add("tolerance_met", report.met)
@@ -156,55 +154,127 @@ results::Record record_of(const ViewFactorOptions& options, const FactorStore& s
   return record;
 }
 
-void print_summary(const ViewFactorOptions& options, const FactorStore& store, const Summary& s, const fem::ToleranceReport& report) {
+void print_summary(const ViewFactorOptions& options, const FactorStore& store, const Summary& s,
+                   const fem::ToleranceReport& report) {
   std::printf("elements    %s\n", core::format_count(static_cast<unsigned long long>(store.size())).c_str());
   std::printf("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.mean, s.low, s.high);
-  std::printf("error       sum_j |dF_ij| at most %.1e, %.1e asked for (estimated)\n", s.largest_error, options.tolerance);
-  if (report.pairs.lost > 0) std::printf("lost        up to %.2f %% of a row, beyond what the method sees\n", 100 * report.pairs.lost);
-  if (report.pairs.clamped > 0) std::printf("clamped     %llu entries\n", static_cast<unsigned long long>(report.pairs.clamped));
+  std::printf("error       sum_j |dF_ij| at most %.1e, %.1e asked for (estimated)\n", s.largest_error,
+              options.tolerance);
+  if (report.pairs.lost > 0)
+    std::printf("lost        up to %.2f %% of a row, beyond what the method sees\n", 100 * report.pairs.lost);
+  if (report.pairs.clamped > 0)
+    std::printf("clamped     %llu entries\n", static_cast<unsigned long long>(report.pairs.clamped));
   std::printf("written to  %s\n", options.out.string().c_str());
+}
+
+/// What a run will need, said before it starts.
+struct FactorForecast {
+  double elements, pairs, points, bytes, seconds;
+};
+
+/// Most of them: the store and, where another format's size is known, what is made of it.
+double bytes_of(const ViewFactorOptions& options, const FactorRequest& request) {
+  const auto n = static_cast<double>(request.size()), points = static_cast<double>(request.points.size());
+  const double exported = options.out.extension() == ".npz" ? 2 * sizeof(double) * n * (n + points) : 0;
+  return results::factor_store_bytes(request.size(), request.points.size()) + exported;
+}
+
+FactorForecast forecast_of(const ViewFactorOptions& options, const FactorRequest& request,
+                           const fem::FormFactorMethod& method, const fem::PointViewFactors& points, const Run& run) {
+  const auto n = static_cast<double>(request.elements.open), count = static_cast<double>(request.points.size());
+  FactorForecast forecast{static_cast<double>(request.size()), 0.5 * n * (n - 1), count, bytes_of(options, request), 0};
+  const double work = forecast.pairs * fem::seconds_per_pair(method, request.elements.seeing(), run) +
+                      count * fem::seconds_per_point(points, request.places());
+  forecast.seconds = work / run.threads.count();
+  return forecast;
+}
+
+std::string text_of(const FactorForecast& forecast) {
+  const auto counted = [](double count, const char* what) {
+    return core::format_count(static_cast<unsigned long long>(count)) + ' ' + what + (count == 1 ? "" : "s");
+  };
+  std::string text = counted(forecast.elements, "element") + ", " + counted(forecast.pairs, "pair") + ", ";
+  if (forecast.points > 0) text += counted(forecast.points, "sensor point") + ", ";
+  return text + core::format("up to %s on the disk, about %s", core::format_bytes(forecast.bytes).c_str(),
+                             core::format_duration(forecast.seconds).c_str());
+}
+
+results::Record record_of(const FactorForecast& forecast) {
+  results::Record record;
+  record.add("elements", static_cast<std::int64_t>(forecast.elements))
+      .add("pairs", static_cast<std::int64_t>(forecast.pairs))
+      .add("sensor_points", static_cast<std::int64_t>(forecast.points))
+      .add("bytes", forecast.bytes)
+      .add("seconds", forecast.seconds);
+  return record;
+}
+
+ExitStatus print_forecast(const FactorForecast& forecast, bool json) {
+  std::printf("%s\n", json ? results::json_text(record_of(forecast)).c_str() : text_of(forecast).c_str());
+  return success;
+}
+
+/// Everything that the store does not have yet.
+fem::ToleranceReport fill(FactorStoreWriter& writer, const fem::MethodMaker& make, double tolerance,
+                          const FactorRequest& request, const fem::PointViewFactors& points, Run& run) {
+  StoredPoints rows(writer);
+  fem::assemble_points(points, request.places(), rows, run);
+  StoredTiles tiles(writer);
+  const fem::ToleranceReport report =
+      fem::assemble_tiles(make, tolerance, request.elements.seeing(), tiles, run, request.covered);
+  writer.finish();
+  return report;
+}
+
+/// Reads, or computes and keeps.
+fem::ToleranceReport factors_into(const std::filesystem::path& file, const results::FactorStoreKey& key,
+                                  const fem::MethodMaker& make, const ViewFactorOptions& options,
+                                  const FactorRequest& request, const fem::PointViewFactors& points, bool talk,
+                                  Run& run) {
+  if (const auto errors = row_errors_if_there(file, key, request)) {
+    if (talk) std::printf("%s has them already\n", file.string().c_str());
+    fem::ToleranceReport report;
+    report.row_errors = *errors;
+    report.met = *std::max_element(errors->begin(), errors->end()) <= options.tolerance;
+    return report;
+  }
+  const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
+  results::require_disk_room(folder, bytes_of(options, request) - results::begun_bytes(file));
+  FactorStoreWriter writer(file, request.about, key, 512, request.points);
+  if (writer.done() > 0 && talk)
+    std::printf("going on with %s: %td of %td tiles are there\n", file.string().c_str(), writer.done(), writer.tiles());
+  return fill(writer, make, options.tolerance, request, points, run);
 }
 
 }  // namespace
 
 ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run) {
-  require_known_format(options);
-  const scene::ExchangeScene geometry = scene::read_geometry_as_scene(options.input, options.geometry);
-  for (const scene::Note& note : geometry.scene.repairs) core::log::info(note.line());
-  for (const scene::Note& note : geometry.scene.warnings) core::log::warning(note.line());
-  if (!geometry.masks.empty())
-    core::log::warning(core::format("%zu masks see their bases alone: they are left out, and so is what bases see of them", geometry.masks.size()));
-  const std::vector<scene::SurfacePatch> elements = elements_of(geometry, options);
+  if (!options.forecast_only) require_known_format(options);
+  const FactorRequest request = factor_request(options);
   const bool talk = !common.json && !common.quiet;
-  if (talk) std::printf("%s elements, bounding box %s\n", core::format_count(elements.size()).c_str(), box_text(geometry.scene).c_str());
-  std::fflush(stdout);
-
-  const auto rays = raycast::make_ray_caster("embree", geometry.scene);
+  if (talk) std::printf("bounding box %s\n", box_text(request.geometry.scene).c_str());
+  const auto rays = raycast::make_ray_caster("embree", request.geometry.scene);
   const auto make = [&](double relative) {
-    fem::FormFactorContext context{geometry.scene, elements, *rays, run.seed, relative, options.visibility_rays};
+    fem::FormFactorContext context{request.geometry.scene, request.elements.seeing(), *rays, run.seed, relative,
+                                   options.visibility_rays};
     context.samples = options.samples;
     context.resolution = options.resolution;
     return fem::make_form_factor_method(options.form_factors, context);
   };
-  make(options.tolerance);  // an unknown name is told before a file is begun
-  const results::FactorStoreKey key{results::geometry_digest(geometry.scene, elements), results::json_text(settings_of(options, run.seed))};
+  const fem::PointViewFactors points(request.geometry.scene, request.elements.seeing());
+  if (talk || options.forecast_only) {
+    const FactorForecast forecast =
+        forecast_of(options, request, *make(fem::entry_tolerance(options.tolerance)), points, run);
+    if (options.forecast_only) return print_forecast(forecast, common.json);
+    std::printf("%s\n", text_of(forecast).c_str());
+    std::fflush(stdout);
+  }
   const std::filesystem::path file = store_of(options), folder = options.out.parent_path();
   const results::OutputDirectory made(folder.empty() ? "." : folder);
-  fem::ToleranceReport report;
-  if (const auto errors = row_errors_if_there(file, key)) {
-    if (talk) std::printf("%s has them already\n", file.string().c_str());
-    report.row_errors = *errors;
-    report.met = *std::max_element(errors->begin(), errors->end()) <= options.tolerance;
-  } else {
-    FactorStoreWriter writer(file, results::factor_elements(geometry.scene, elements), key);
-    if (writer.done() > 0 && talk)
-      std::printf("going on with %s: %td of %td tiles are there\n", file.string().c_str(), writer.done(), writer.tiles());
-    StoredTiles tiles(writer);
-    report = fem::assemble_tiles(make, options.tolerance, elements, tiles, run);
-    writer.finish();
-  }
+  const results::FactorStoreKey key{request.digest(), results::json_text(settings_of(options, run.seed))};
+  const fem::ToleranceReport report = factors_into(file, key, make, options, request, points, talk, run);
   const FactorStore store(file);
-  export_factors(options, geometry, elements, store);
+  export_factors(options, request, store);
   const Summary summary = summary_of(store);
   if (common.json)
     std::printf("%s\n", results::json_text(record_of(options, store, summary, report)).c_str());

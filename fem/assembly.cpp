@@ -85,22 +85,26 @@ PairCounts assemble(const FormFactorMethod& method, std::span<const scene::Surfa
   return method.exchange(everything, everything, sink, run);
 }
 
-std::unique_ptr<DenseSymmetric> aggregated(const DenseSymmetric& fine, Run& run) {
+std::unique_ptr<SymmetricOperator> aggregated(const SymmetricOperator& fine, Run& run) {
   const Index parents = fine.size() / 4;
   std::vector<double> areas(static_cast<std::size_t>(parents));
   for (std::size_t I = 0; I < areas.size(); ++I)
     for (std::size_t k = 0; k < 4; ++k) areas[I] += fine.gram()[4 * I + k];
-  auto coarse = std::make_unique<DenseSymmetric>(std::move(areas));
-  run.threads.for_blocks(parents, 16, [&](Index begin, Index end) {
-    for (Index I = begin; I < end; ++I)
-      for (Index J = I; J < parents; ++J) {
-        double sum = 0.0;
-        for (Index i = 4 * I; i < 4 * I + 4; ++i)
-          for (Index j = 4 * J; j < 4 * J + 4; ++j) sum += fine.entry(i, j);
-        if (sum > 0.0) coarse->add(I, J, {sum});
-      }
-  });
-  return coarse;
+  const auto fill = [&](ExchangeSink& coarse) {
+    constexpr Index parents_at_a_time = 8;
+    run.threads.for_blocks(parents, parents_at_a_time, [&](Index begin, Index end) {
+      solvers::ColumnMatrix rows(4 * (end - begin), fine.size());
+      fine.rows(4 * begin, 4 * (end - begin), rows);
+      for (Index I = begin; I < end; ++I)
+        for (Index J = I; J < parents; ++J) {
+          double sum = 0.0;
+          for (Index i = 4 * (I - begin); i < 4 * (I - begin) + 4; ++i)
+            for (Index j = 4 * J; j < 4 * J + 4; ++j) sum += rows(i, j);
+          if (sum > 0.0) coarse.add(I, J, {sum});
+        }
+    });
+  };
+  return fine.alike(std::move(areas), fill, run);
 }
 
 }  // namespace interflect::fem

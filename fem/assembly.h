@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/operator/dense_symmetric.h"
+#include "fem/operator/symmetric_operator.h"
 
 namespace interflect::fem {
 
@@ -11,7 +11,7 @@ PairCounts assemble(const FormFactorMethod& method, std::span<const scene::Surfa
                     Run& run);
 
 /// K of elements that each consist of four: K_IJ = sum of K_ij over the children i of I and j of J, because K is additive;
-/// without errors.  @param fine  children 4I .. 4I + 3
-std::unique_ptr<DenseSymmetric> aggregated(const DenseSymmetric& fine, Run& run);
+/// without errors, stored as they are.  @param fine  children 4I .. 4I + 3
+std::unique_ptr<SymmetricOperator> aggregated(const SymmetricOperator& fine, Run& run);
 
 }  // namespace interflect::fem

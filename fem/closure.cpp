@@ -1,61 +1,53 @@
 #include "fem/closure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/format.h"
+#include "fem/closure_law.h"
 
 namespace interflect::fem {
 namespace {
 
-using Vector = solvers::ColumnMatrix;  // one column
+using Vector = ClosureLaw::Vector;
 
 constexpr int most_gradient_steps = 500;
 constexpr int most_halvings = 30;
+// Rays are counted: an opening that none of them finds though 16 should (environment_column.h) has the chance exp(-16).
+constexpr double standard_deviations = 8;
+constexpr double least_stiffness =
+    1e-8;  // of what a row had at first, which counts where all its entries are at their bounds
 
-/// S K S with S = diag(exp(u)), without storing it.
-class Scaled {
- public:
-  Scaled(const DenseSymmetric& K, Run& run)
-      : K_(K), run_(run), areas_(K.gram().data(), K.size()), s_(Vector::Ones(K.size(), 1)) {}
-
-  void set_logarithms(const Vector& u) { s_ = u.array().exp(); }
-  const Vector& factors() const { return s_; }
-  Vector times(const Vector& v) const {
-    const Vector scaled = s_.array() * v.array();
-    Vector product(scaled.rows(), 1);
-    K_.apply(scaled, product, run_);
-    return s_.array() * product.array();
-  }
-  Vector row_sums() const { return times(Vector::Ones(K_.size(), 1)); }
-  /// A - K' 1
-  Vector missing(const Vector& sums) const { return areas_ - sums.array(); }
-  /// max_a |sum_b F'_ab - 1|
-  double row_error(const Vector& sums) const { return (missing(sums).array() / areas_).abs().maxCoeff(); }
-
- private:
-  const DenseSymmetric& K_;
-  Run& run_;
-  Eigen::Map<const Eigen::ArrayXd> areas_;
-  Vector s_;
+struct Entry {
+  const char* name;
+  std::unique_ptr<ClosureLaw> (*make)(const SymmetricOperator&, const EnvironmentColumn*, const EntryVariances&, Run&);
 };
+constexpr Entry catalogue[] = {{"scaling", scaling_law}, {"least-squares", least_squares_law}};
+
+std::unique_ptr<ClosureLaw> make_law(const ClosureSettings& settings, const SymmetricOperator& K,
+                                     const EntryVariances& variances, Run& run) {
+  for (const Entry& entry : catalogue)
+    if (settings.method == entry.name) return entry.make(K, settings.environment, variances, run);
+  throw core::InputError("closure by '" + settings.method + "'", "one of scaling, least-squares expected");
+}
 
 double dot(const Vector& a, const Vector& b) { return a.cwiseProduct(b).sum(); }
 
-/// Solves (diag(K' 1) + K') step = missing by conjugate gradients with the diagonal as preconditioner, until the
+/// Solves (diag(stiffness) + phi') step = missing by conjugate gradients with the diagonal as preconditioner, until the
 /// residual is `reduction` of the right-hand side.  The matrix is positive semidefinite: singular where elements form
 /// two groups that see each other only, and then consistent exactly if both have the same area.
-Vector newton_step(const Scaled& K, const Vector& sums, const Vector& missing, double reduction) {
-  Vector step = Vector::Zero(sums.rows(), 1), residual = missing, direction = missing.array() / sums.array();
+Vector newton_step(const ClosureLaw& law, const Vector& diagonal, const Vector& missing, double reduction) {
+  Vector step = Vector::Zero(missing.rows(), 1), residual = missing, direction = missing.array() / diagonal.array();
   double size = dot(residual, direction);
   const double enough = reduction * reduction * size;
   for (int k = 0; k < most_gradient_steps && size > enough; ++k) {
-    const Vector image = sums.array() * direction.array() + K.times(direction).array();
+    const Vector image = diagonal.array() * direction.array() + law.times(direction).array();
     const double curvature = dot(direction, image);
     if (!(curvature > 0)) break;
     step += size / curvature * direction;
     residual -= size / curvature * image;
-    const Vector preconditioned = residual.array() / sums.array();
+    const Vector preconditioned = residual.array() / diagonal.array();
     const double next = dot(residual, preconditioned);
     direction = preconditioned + next / size * direction;
     size = next;
@@ -63,83 +55,135 @@ Vector newton_step(const Scaled& K, const Vector& sums, const Vector& missing, d
   return step;
 }
 
-void require_nearly_closed(const DenseSymmetric& K, const std::vector<double>& F, const ClosureSettings& settings) {
-  for (std::size_t a = 0; a < F.size(); ++a)
-    if (!(std::abs(F[a] - 1) <= settings.largest_row_error))
-      throw core::InputError(
-          core::format("closure of %td elements: the form factors of element %zu add up to %.4g; only a closed scene, "
-                       "with sums from %.4g to %.4g, can be corrected",
-                       K.size(), a, F[a], 1 - settings.largest_row_error, 1 + settings.largest_row_error));
-}
-
-/// Newton's method: u such that exp(u_a) K_ab exp(u_b) has the row sums A.  Returns its steps.
-int balance(Scaled& K, double tolerance, int max_iterations, const Run& run) {
-  Vector u = Vector::Zero(K.factors().rows(), 1), sums = K.row_sums();
-  double error = K.row_error(sums);
+/// Newton's method: multipliers with which rows add up to the areas.  Returns its steps.
+int balance(ClosureLaw& law, std::span<const double> areas, double tolerance, int max_iterations, const Run& run) {
+  Vector u = Vector::Zero(law.size(), 1);
+  law.set(u);
+  Vector first = law.stiffness();
+  for (Index a = 0; a < law.size(); ++a)
+    if (!(first(a, 0) > 0)) first(a, 0) = areas[static_cast<std::size_t>(a)];
   for (int iteration = 0;; ++iteration) {
+    const double error = law.row_error();
     if (error <= tolerance || iteration == max_iterations) return iteration;
     run.throw_if_stopped("closure");
-    const Vector step = newton_step(K, sums, K.missing(sums), std::clamp(0.1 * error, 1e-8, 1e-2));
-    // The step points where every norm of what is missing falls: shorten it until this one does.
+    const Vector diagonal = (law.stiffness().array() > least_stiffness * first.array()).select(law.stiffness(), first);
+    const Vector step = newton_step(law, diagonal, law.missing(), std::clamp(0.1 * error, 1e-8, 1e-2));
+    // Until the largest error falls, or the convex function still does at the end of the step.
     double length = 1;
     for (int halving = 0;; ++halving, length /= 2) {
       if (halving == most_halvings) {
-        K.set_logarithms(u);
+        law.set(u);
         return iteration;
       }
-      K.set_logarithms(u + length * step);
-      const Vector new_sums = K.row_sums();
-      if (const double new_error = K.row_error(new_sums); new_error < error) {
-        error = new_error;
-        sums = new_sums;
-        u += length * step;
-        break;
-      }
+      law.set(u + length * step);
+      if (law.row_error() < error || dot(law.missing(), step) >= 0) break;
     }
+    u += length * step;
   }
 }
 
-/// ||S K S - K|| / ||K||, Frobenius.
-double relative_change(const DenseSymmetric& K, std::span<const double> s, const Run& run) {
-  const double change = K.sum_over_entries(run, [&](Index a, Index b, double K_ab) {
-    const double d = (s[static_cast<std::size_t>(a)] * s[static_cast<std::size_t>(b)] - 1) * K_ab;
-    return d * d;
+/// 1 - sum_b F_ab - F_a,env
+std::vector<double> misclosure_of(std::span<const double> row_sum, const EnvironmentColumn* environment) {
+  std::vector<double> off;
+  for (std::size_t a = 0; a < row_sum.size(); ++a)
+    off.push_back(1 - row_sum[a] - (environment == nullptr ? 0 : environment->factor[a]));
+  return off;
+}
+
+/// What an operator's rows may be off by, for what was not sampled: stated bounds, and what was left out.
+std::vector<double> row_bounds(const SymmetricOperator& K, std::span<const double> stated) {
+  std::vector<double> bounds(stated.begin(), stated.end());
+  bounds.resize(static_cast<std::size_t>(K.size()), 0.0);
+  for (std::size_t a = 0; a < K.dropped().size(); ++a) bounds[a] += K.dropped()[a];
+  return bounds;
+}
+
+void require_nearly_closed(std::span<const double> misclosure, std::span<const double> dropped, double limit) {
+  for (std::size_t a = 0; a < misclosure.size(); ++a)
+    if (!(std::abs(misclosure[a]) <= limit))
+      throw core::InputError(core::format(
+          "closure of %zu elements: the form factors of element %zu add up to %.4g%s; only a closed scene, "
+          "with sums from %.4g to %.4g, can be corrected",
+          misclosure.size(), a, 1 - misclosure[a],
+          dropped.empty() ? "" : core::format(", and %.3g were dropped", dropped[a]).c_str(), 1 - limit, 1 + limit));
+}
+
+void require_explained(const SymmetricOperator& K, std::span<const double> misclosure,
+                       const EnvironmentColumn& environment, std::span<const double> bound, Run& run) {
+  Vector variance(K.size(), 1);
+  K.apply_variances(Vector::Ones(K.size(), 1), variance, run);
+  for (std::size_t a = 0; a < misclosure.size(); ++a) {
+    const double noise = std::sqrt(variance(static_cast<Index>(a), 0)) / K.gram()[a];
+    const double explained = bound[a] + standard_deviations * std::hypot(noise, environment.standard_error[a]);
+    if (!(std::abs(misclosure[a]) <= explained))
+      throw core::InputError(core::format(
+          "closure of %td elements: the form factors of element %zu and what rays find of its environment add up to "
+          "%.4g; errors explain %.4g to %.4g, and no more can be corrected",
+          K.size(), a, 1 - misclosure[a], 1 - explained, 1 + explained));
+  }
+}
+
+/// ||K' - K|| / ||K||, Frobenius.
+double relative_change(const SymmetricOperator& K, const ClosureLaw& law, const Run& run) {
+  const solvers::ColumnMatrix squares = K.sums_by_row(run, 2, [&](const StoredPair& p, solvers::ColumnMatrix& to) {
+    const double d = law.repaired(p) - p.K, both = p.a == p.b ? 1 : 2;
+    to(p.a, 0) += both * d * d;
+    to(p.a, 1) += both * p.K * p.K;
   });
-  const double whole = K.sum_over_entries(run, [](Index, Index, double K_ab) { return K_ab * K_ab; });
-  return std::sqrt(change / whole);
+  const double whole = squares.col(1).sum();
+  return whole > 0 ? std::sqrt(squares.col(0).sum() / whole) : 0.0;
 }
 
-double largest_row_error(const std::vector<double>& F) {
-  double largest = 0;
-  for (const double f : F) largest = std::max(largest, std::abs(f - 1));
-  return largest;
+double largest(std::span<const double> values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
 }
 
-}  // namespace
-
-ClosureReport restore_closure(DenseSymmetric& K, Run& run, const ClosureSettings& settings) {
-  const std::vector<double> before = K.row_sums(run);
-  require_nearly_closed(K, before, settings);
-  Scaled scaled(K, run);
-  ClosureReport report;
-  report.row_error_before = largest_row_error(before);
-  report.iterations =
-      balance(scaled, settings.tolerance / 4, settings.max_iterations, run);  // rounding needs its part, too
-  if (const double left = scaled.row_error(scaled.row_sums());
-      left > 1e-3 * report.row_error_before && left > settings.tolerance)
+void require_found(const ClosureLaw& law, const ClosureReport& report, const ClosureSettings& settings) {
+  const double left = law.row_error();
+  if (left > 1e-3 * report.row_error_before && left > settings.tolerance)
     throw core::InputError(
-        core::format("closure of %td elements: no symmetric scaling of the form factors makes every row sum 1 "
+        core::format("closure of %td elements: no symmetric change of the form factors by %s makes every row sum 1 "
                      "(one is off by %.2g still)",
-                     K.size(), left));
-  const std::span<const double> s(scaled.factors().data(), static_cast<std::size_t>(K.size()));
-  report.correction = relative_change(K, s, run);
+                     law.size(), settings.method.c_str(), left));
   if (report.correction > settings.largest_correction)
     throw core::InputError(core::format(
         "closure of %td elements: it would change the form factors by %.3g of their norm, more than the %.3g "
         "that errors may explain",
-        K.size(), report.correction, settings.largest_correction));
-  K.scale(s, run);
-  report.row_error_after = largest_row_error(K.row_sums(run));
+        law.size(), report.correction, settings.largest_correction));
+}
+
+}  // namespace
+
+std::vector<std::string> closure_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : catalogue) names.emplace_back(entry.name);
+  return names;
+}
+
+ClosureReport restore_closure(SymmetricOperator& K, Run& run, const ClosureSettings& settings) {
+  const EnvironmentColumn* environment = settings.environment;
+  const std::vector<double> row_sum = K.row_sums(run), bound = row_bounds(K, settings.row_bound);
+  std::vector<double> off = misclosure_of(row_sum, environment);
+  if (environment == nullptr)
+    require_nearly_closed(off, K.dropped(), settings.largest_row_error);
+  else
+    require_explained(K, off, *environment, bound, run);
+  const std::unique_ptr<ClosureLaw> law = make_law(settings, K, entry_variances(K, bound, off, row_sum, run), run);
+  ClosureReport report;
+  report.row_error_before = largest(off);
+  report.iterations =
+      balance(*law, K.gram(), settings.tolerance / 4, settings.max_iterations, run);  // rounding needs its part, too
+  report.correction = relative_change(K, *law, run);
+  require_found(*law, report, settings);
+  K.change([&](const StoredPair& pair) { return law->repaired(pair); }, run);
+  off = misclosure_of(K.row_sums(run), nullptr);
+  for (std::size_t a = 0; environment != nullptr && a < off.size(); ++a) {
+    report.environment.push_back(law->environment(static_cast<Index>(a)) / K.gram()[a]);
+    off[a] -= report.environment[a];
+  }
+  report.row_error_after = largest(off);
   report.converged = report.row_error_after <= settings.tolerance;
   return report;
 }

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "core/hemisphere.h"
 #include "core/moments.h"
 #include "core/random.h"
-#include "fem/element_point.h"
+#include "fem/element_rays.h"
 
 namespace interflect::fem {
 
@@ -30,16 +29,6 @@ std::vector<double> cumulative_shares(const scene::Scene& scene, std::span<const
   return sums;
 }
 
-raycast::Ray ray_from(const scene::SurfacePatch& patch, core::RandomNumbers& random, double& weight) {
-  const double s = random.next(), t = random.next();
-  const WeightedPoint from = ElementMap(patch)(s, t);
-  weight = from.weight;
-  const double u = random.next(), v = random.next();
-  const Vec3 normal = patch.normal();
-  const Vec3 direction = core::frame_around(normal).to_world(core::cosine_hemisphere(u, v));
-  return {from.position, direction.normalized(), normal};
-}
-
 struct Tally {
   core::Moments escaped, on_backs;
   std::uint64_t lost = 0;
@@ -61,10 +50,11 @@ LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::Surfac
       const auto found = std::upper_bound(shares.begin(), shares.end() - 1, stratified) - shares.begin();
       const auto i = static_cast<std::size_t>(found);
       const double probability = shares[i] - (i > 0 ? shares[i - 1] : 0.0);
-      double weight = 1.0;
-      const auto hit = rays.closest(ray_from(patches[i], random, weight));
-      const Spectrum flux = weight * patches[i].area / probability * radiosity[i];
-      const bool back = hit && !scene.material(hit->surface).active(hit->side);
+      const double s = random.next(), t = random.next(), u = random.next(), v = random.next();
+      const ElementRay from = ElementRays(patches[i])(s, t, u, v);
+      const auto hit = rays.closest(from.ray);
+      const Spectrum flux = from.weight * patches[i].area / probability * radiosity[i];
+      const bool back = hit && is_lost(scene, hit);
       tally.escaped.add(hit ? Spectrum::zero() : flux);
       tally.on_backs.add(back ? flux : Spectrum::zero());
       tally.lost += !hit || back;

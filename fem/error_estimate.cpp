@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fem/columns.h"
+#include "fem/dropped_irradiance.h"
 #include "fem/neighbour_error.h"
 
 namespace interflect::fem {
@@ -33,8 +34,14 @@ Spectrum area_mean(const mesh::ElementMesh& mesh, std::span<const Spectrum> valu
   return sum / area;
 }
 
+/// rho / (1 - rho) with the mean rho: all bounces after the first.
+Spectrum later_bounces(const RadiositySolution& s) {
+  return area_mean(s.mesh, s.reflectance).map([](double rho) { return rho / (1.0 - rho); });
+}
+
 /// |G^-1 K (B_h - P B_2h)|.
-std::vector<Spectrum> halving_differences(const RadiositySolution& s, const DenseSymmetric& K, int channels, Run& run) {
+std::vector<Spectrum> halving_differences(const RadiositySolution& s, const SymmetricOperator& K, int channels,
+                                          Run& run) {
   const solvers::ColumnMatrix difference = to_columns(s.radiosity, channels) - to_columns(s.coarse_radiosity, channels);
   solvers::ColumnMatrix arriving(difference.rows(), difference.cols());
   K.apply(difference, arriving, run);
@@ -61,13 +68,14 @@ struct SampledNoise {
   double mean_row_sum = 0;         ///< standard error
 };
 
-SampledNoise sampled_noise(const RadiositySolution& s, const DenseSymmetric& K, int channels, Run& run) {
+SampledNoise sampled_noise(const RadiositySolution& s, const SymmetricOperator& K, int channels, Run& run) {
   const Index n = K.size();
   const auto elements = static_cast<std::size_t>(n);
   SampledNoise noise{std::vector<Spectrum>(elements), {}, std::vector<double>(elements), 0};
   if (!K.has_errors()) return noise;
   const solvers::ColumnMatrix B = to_columns(s.radiosity, channels);
-  solvers::ColumnMatrix asked(n, 2 * channels + 1), found(n, 2 * channels + 1);  // B², B and 1: one pass over the errors
+  solvers::ColumnMatrix asked(n, 2 * channels + 1),
+      found(n, 2 * channels + 1);  // B², B and 1: one pass over the errors
   asked << B.array().square().matrix(), B, solvers::ColumnMatrix::Ones(n, 1);
   K.apply_variances(asked, found, run);
   double area = 0, row_sums = 0;
@@ -88,28 +96,78 @@ SampledNoise sampled_noise(const RadiositySolution& s, const DenseSymmetric& K, 
 }
 
 void set_noise(RadiositySolution& s, const SampledNoise& noise) {
-  const Spectrum bounces = area_mean(s.mesh, s.reflectance).map([](double rho) { return rho / (1.0 - rho); });
-  s.shared_noise = bounces * sqrt(noise.variance_of_mean);
+  s.shared_noise = later_bounces(s) * sqrt(noise.variance_of_mean);
   s.irradiance_noise.clear();
   for (const Spectrum& variance : noise.variance)
     s.irradiance_noise.push_back(sqrt(variance + s.shared_noise * s.shared_noise));
 }
 
-/// What rows that do not sum to 1 do to a closed scene, beyond their noise.
-void add_closure(RadiositySolution& s, std::span<const double> row_sum, const SampledNoise& noise) {
+/// What rows lack that are known to add up to 1, with the environment's part, beside what was dropped.
+struct Lacking {
+  std::vector<double> row, standard_error;
+  double mean = 0, mean_standard_error = 0;  ///< by area
+};
+
+Lacking lacking(const RadiositySolution& s, const ErrorSources& from, const SampledNoise& noise) {
+  Lacking lack{std::vector<double>(from.row_sum_before.size()), noise.row_sum, 0, 0};
+  double area = 0, variance = 0;
+  for (std::size_t i = 0; i < lack.row.size(); ++i) {
+    const double A = s.mesh.patches()[i].area;
+    lack.row[i] = 1.0 - from.row_sum_before[i] - (from.K.dropped().empty() ? 0.0 : from.K.dropped()[i]);
+    if (from.environment != nullptr) {
+      const double error = from.environment->standard_error[i];
+      lack.row[i] -= from.environment->factor[i];
+      lack.standard_error[i] = std::hypot(lack.standard_error[i], error);
+      variance += A * A * error * error;
+    }
+    lack.mean += A * lack.row[i];
+    area += A;
+  }
+  lack.mean /= area;
+  lack.mean_standard_error = std::hypot(noise.mean_row_sum, std::sqrt(variance) / area);
+  return lack;
+}
+
+/// What rows that do not add up to 1 do, beyond their noise.
+void add_closure(RadiositySolution& s, const Lacking& lack) {
   const auto beyond = [](double lacking, double standard_error) {
     return std::max(0.0, std::abs(lacking) - 2 * standard_error);
   };
-  double lacking = 0, area = 0;
-  for (std::size_t i = 0; i < row_sum.size(); ++i) {
-    lacking += s.mesh.patches()[i].area * (1.0 - row_sum[i]);
-    area += s.mesh.patches()[i].area;
-  }
   const Spectrum B = area_mean(s.mesh, s.radiosity);
-  const Spectrum later = area_mean(s.mesh, s.reflectance).map([](double rho) { return rho / (1.0 - rho); });
-  const Spectrum of_mean = beyond(lacking / area, noise.mean_row_sum) * (later * B);
-  for (std::size_t i = 0; i < row_sum.size(); ++i)
-    s.irradiance_error[i] += beyond(1.0 - row_sum[i], noise.row_sum[i]) * B + of_mean;
+  const Spectrum of_mean = beyond(lack.mean, lack.mean_standard_error) * (later_bounces(s) * B);
+  for (std::size_t i = 0; i < lack.row.size(); ++i)
+    s.irradiance_error[i] += beyond(lack.row[i], lack.standard_error[i]) * B + of_mean;
+}
+
+Spectrum largest(std::span<const Spectrum> values) {
+  Spectrum most;
+  for (const Spectrum& value : values) most = max(most, value);
+  return most;
+}
+
+/// What entries that were left out do, at first and in later bounces.
+void add_dropped(RadiositySolution& s, const SymmetricOperator& K, int channels, const Run& run) {
+  if (K.dropped().empty()) return;
+  const std::vector<Spectrum> first = to_spectra(dropped_irradiance(K, to_columns(s.radiosity, channels), run));
+  const Spectrum later = later_bounces(s) * area_mean(s.mesh, first);
+  for (std::size_t i = 0; i < first.size(); ++i) s.irradiance_error[i] += first[i] + later;
+}
+
+void add_quadrature(RadiositySolution& s, const ErrorSources& from) {
+  const Spectrum bounces = area_mean(s.mesh, s.reflectance).map([](double rho) { return 1.0 / (1.0 - rho); });
+  const Spectrum B = area_mean(s.mesh, s.radiosity);
+  for (std::size_t i = 0; i < s.irradiance.size(); ++i)
+    s.irradiance_error[i] += from.row_bound.empty() ? from.quadrature_tolerance * (bounces * s.irradiance[i])
+                                                    : from.row_bound[i] * (bounces * max(s.irradiance[i], B));
+}
+
+void add_solver(RadiositySolution& s) {
+  double largest_reflectance = 0.0;
+  for (const Spectrum& rho : s.reflectance) largest_reflectance = std::max(largest_reflectance, rho.max());
+  // What only passes on has no such bound of its own: the mean, which is below 1, stands for it.
+  const double rho = largest_reflectance < 1 ? largest_reflectance : area_mean(s.mesh, s.reflectance).max();
+  const Spectrum error = s.solver.residual() / (1.0 - rho) * largest(s.radiosity);
+  for (Spectrum& e : s.irradiance_error) e += error;
 }
 
 }  // namespace
@@ -139,23 +197,16 @@ void estimate_errors(RadiositySolution& s, const ErrorSources& from, int channel
     add_discretisation(s, halving_differences(s, from.K, channels, run));
   else
     s.irradiance_error.assign(s.radiosity.size(), Spectrum(std::numeric_limits<double>::infinity()));
-  const Spectrum bounces = area_mean(s.mesh, s.reflectance).map([](double rho) { return 1.0 / (1.0 - rho); });
-  double largest_reflectance = 0.0;
-  Spectrum largest_radiosity;
-  for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
-    largest_reflectance = std::max(largest_reflectance, s.reflectance[i].max());
-    largest_radiosity = max(largest_radiosity, s.radiosity[i]);
-  }
-  // What only passes on has no such bound of its own: the mean, which is below 1, stands for it.
-  const double largest = largest_reflectance < 1 ? largest_reflectance : area_mean(s.mesh, s.reflectance).max();
-  const Spectrum solver = s.solver.residual() / (1.0 - largest) * largest_radiosity;
+  add_quadrature(s, from);
+  add_solver(s);
+  add_dropped(s, from.K, channels, run);
   const std::vector<Spectrum> neighbours = neighbour_errors(s, from.K, run);
   s.field_error.resize(s.radiosity.size());
   for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
-    s.irradiance_error[i] += neighbours[i] + from.quadrature_tolerance * (bounces * s.irradiance[i]) + solver;
+    s.irradiance_error[i] += neighbours[i];
     s.field_error[i] = s.reflectance[i] * irradiance_variation(s, i);
   }
-  if (s.closed) add_closure(s, from.row_sum_before, noise);
+  if (s.closed || from.environment != nullptr) add_closure(s, lacking(s, from, noise));
 }
 
 }  // namespace interflect::fem

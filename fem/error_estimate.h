@@ -1,16 +1,19 @@
 #pragma once
 
-#include "fem/operator/dense_symmetric.h"
+#include "fem/environment_column.h"
+#include "fem/operator/symmetric_operator.h"
 #include "fem/radiosity.h"
 
 namespace interflect::fem {
 
 /// What the error of a solution is estimated from.
 struct ErrorSources {
-  const DenseSymmetric& K;                 ///< on the fine mesh; its errors are those of its entries
+  const SymmetricOperator& K;              ///< on the fine mesh; its errors are those of its entries
   std::span<const double> row_sum_before;  ///< sum_j F_ij before any closure was restored
   double quadrature_tolerance = 0;         ///< relative, of entries
-  bool both_converged = true;              ///< the solves at either size: else nothing bounds the discretisation error
+  std::span<const double> row_bound;       ///< sum_j bound_ij / A_i, in place of that tolerance; empty: not known
+  const EnvironmentColumn* environment = nullptr;  ///< of an open scene, where it was found
+  bool both_converged = true;  ///< the solves at either size: else nothing bounds the discretisation error
 };
 
 /// Fills irradiance_error, irradiance_noise, shared_noise and field_error of a solution whose other fields are there.
@@ -23,9 +26,12 @@ struct ErrorSources {
 ///   max(|D_i|, rms of D over the four children of i's parent, 1/2 rms of D over i's side of its surface)
 ///
 /// plus  neighbours: what radiosity varies by inside elements next to i, which halving does not show (neighbour_error.h);
-/// plus  quadrature: tolerance times H, over 1 - mean rho for all bounces;
-/// plus  closure, in closed scenes: |1 - row sum_i| beyond twice its standard error, times the mean radiosity, and the same of the
-///       mean row sum times rho / (1 - rho), for later bounces: rows that all lack d make H lack d B / (1 - rho);
+/// plus  quadrature: tolerance times H, over 1 - mean rho for all bounces; where the errors of rows are known, those times
+///       the larger of H and the mean radiosity;
+/// plus  closure, where scenes are closed or their environment was found: |1 - row sum_i - F_i,env - dropped_i| beyond twice
+///       its standard error, times the mean radiosity, and the same of the mean row times rho / (1 - rho), for later bounces:
+///       rows that all lack d make H lack d B / (1 - rho);
+/// plus  dropped pairs: the most that they may bring (dropped_irradiance.h), and its mean times rho / (1 - rho);
 /// plus  solver: residual times max B / (1 - max rho), mean rho where max rho is 1.
 ///
 /// Noise.  With the standard errors e_ij of K's entries, one bounce off B makes  var_i = sum_j (e_ij B_j / A_i)²  of its own in

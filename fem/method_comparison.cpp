@@ -6,6 +6,7 @@
 
 #include "core/format.h"
 #include "fem/assembly.h"
+#include "fem/operator/dense_symmetric.h"
 #include "fem/row_errors.h"
 
 namespace interflect::fem {

@@ -79,7 +79,7 @@ Spectrum linear_deviation(const RadiositySolution& solution, std::size_t j, cons
   return deviation;
 }
 
-std::vector<Spectrum> neighbour_errors(const RadiositySolution& solution, const DenseSymmetric& K, const Run& run) {
+std::vector<Spectrum> neighbour_errors(const RadiositySolution& solution, const SymmetricOperator& K, const Run& run) {
   const std::vector<Ball> balls = balls_of(solution.mesh);
   std::vector<Spectrum> errors(balls.size());
   run.threads.for_blocks(K.size(), rows_at_once, [&](Index begin, Index end) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fem/operator/dense_symmetric.h"
+#include "fem/operator/symmetric_operator.h"
 #include "fem/radiosity.h"
 
 namespace interflect::fem {
@@ -25,7 +25,7 @@ namespace interflect::fem {
 /// constants say of such a spot is nothing: it may be dark, since radiosity is not negative, while the rest has all.
 ///
 /// Needs `reflectance` and `irradiance` of the solution.
-std::vector<Spectrum> neighbour_errors(const RadiositySolution& solution, const DenseSymmetric& K, const Run& run);
+std::vector<Spectrum> neighbour_errors(const RadiositySolution& solution, const SymmetricOperator& K, const Run& run);
 
 /// The irradiance at `x` in the plane of element `j`, less that of the element, by the linear field through its parent's four children.
 Spectrum linear_deviation(const RadiositySolution& solution, std::size_t j, const Vec3& x);

@@ -12,6 +12,7 @@
 #include "fem/columns.h"
 #include "fem/energy.h"
 #include "fem/error_estimate.h"
+#include "fem/radiosity_operator.h"
 
 namespace interflect::fem {
 
@@ -39,14 +40,8 @@ class StageClock {
   std::vector<StageCost>& stages_;
 };
 
-std::vector<double> areas_of(const mesh::ElementMesh& mesh) {
-  std::vector<double> areas;
-  for (const auto& patch : mesh.patches()) areas.push_back(patch.area);
-  return areas;
-}
-
 /// b = e + R G^-1 K b from a fresh start.
-solvers::ColumnMatrix solve_system(const DenseSymmetric& K, const solvers::ColumnMatrix& exitance,
+solvers::ColumnMatrix solve_system(const SymmetricOperator& K, const solvers::ColumnMatrix& exitance,
                                    const solvers::ColumnMatrix& reflectance, const RadiositySettings& settings,
                                    Run& run, solvers::SolverReport& report) {
   const solvers::Reflection R(reflectance);
@@ -90,7 +85,7 @@ void set_materials(RadiositySolution& s, const scene::Scene& scene) {
 
 /// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
 /// @return  whether both solves converged
-bool solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySettings& settings, int channels,
+bool solve_both(RadiositySolution& s, const SymmetricOperator& K, const RadiositySettings& settings, int channels,
                 Run& run) {
   const solvers::ColumnMatrix e = to_columns(s.exitance, channels), rho = to_columns(s.reflectance, channels);
   const solvers::ColumnMatrix B = solve_system(K, e, rho, settings, run, s.solver);
@@ -107,15 +102,59 @@ bool solve_both(RadiositySolution& s, const DenseSymmetric& K, const RadiositySe
   return s.solver.converged() && of_coarse.converged();
 }
 
-/// Row sums made 1 where that was asked for; returns the relative change of K.
-double close(DenseSymmetric& K, bool closed, const RadiositySettings& settings, Run& run) {
-  if (!settings.restore_closure) return 0.0;
-  if (!closed)
-    throw core::InputError("closure can be restored in closed scenes only: rays leave this one or reach black backs");
-  return restore_closure(K, run).correction;
+/// Whether no ray that leaves an element, chosen by area, is lost.
+bool is_closed(const RadiositySolution& s, const scene::Scene& scene, const raycast::RayCaster& rays, Run& run) {
+  const std::vector<Spectrum> by_area_alone(s.exitance.size());
+  return cast_lost_rays(scene, s.mesh.patches(), by_area_alone, rays, run).lost == 0;
+}
+
+/// Row sums repaired where that was asked for; an open scene's with `environment`.
+void close(RadiositySolution& s, RadiosityOperator& from, const EnvironmentColumn* environment,
+           const RadiositySettings& settings, Run& run) {
+  if (settings.closure == "none") return;
+  ClosureSettings closure;
+  closure.method = settings.closure;
+  closure.row_bound = from.row_bound;
+  closure.environment = environment;
+  ClosureReport report = restore_closure(*from.K, run, closure);
+  s.closure_correction = report.correction;
+  s.environment = std::move(report.environment);
+}
+
+void set_operator_record(RadiositySolution& s, const RadiosityOperator& from) {
+  const SymmetricOperator& K = *from.K;
+  s.pairs = from.pairs;
+  s.largest_row_error = from.largest_row_error;
+  s.tolerance_met = from.tolerance_met;
+  s.bytes = K.bytes();
+  s.kept_share = K.kept_share();
+  if (K.dropped().empty()) return;
+  const RowSums dropped = summary_of(K.dropped(), K.gram());
+  s.largest_dropped = dropped.highest;
+  s.mean_dropped = dropped.mean;
+}
+
+void balance_energy(RadiositySolution& s, const scene::Scene& scene, const raycast::RayCaster& rays, bool repaired,
+                    Run& run) {
+  const LostRays lost = cast_lost_rays(scene, s.mesh.patches(), s.radiosity, rays, run);
+  if (s.closed && lost.lost > 0) {
+    s.closed = false;
+    if (repaired)
+      core::log::warning("closure was restored, but a few rays do leave the scene: its openings are small, not absent");
+  }
+  s.energy = energy_balance(s, lost);
 }
 
 }  // namespace
+
+double mean_environment(const RadiositySolution& s) {
+  double sum = 0, area = 0;
+  for (std::size_t i = 0; i < s.environment.size(); ++i) {
+    sum += s.mesh.patches()[i].area * s.environment[i];
+    area += s.mesh.patches()[i].area;
+  }
+  return area > 0 ? sum / area : 0.0;
+}
 
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
   const double size = element_size_of(scene, settings);
@@ -126,36 +165,31 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   if (s.mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
   set_materials(s, scene);
   const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
-  DenseSymmetric K(areas_of(s.mesh));
-  timed("form factors", [&] {
-    if (settings.stored_factors) return settings.stored_factors(scene, s.mesh.patches(), K);
-    const auto method = make_form_factor_method(
-        settings.form_factors,
-        {scene, s.mesh.patches(), *rays, run.seed, settings.quadrature_tolerance, settings.visibility_rays});
-    s.pairs = assemble(*method, s.mesh.patches(), K, run);
-  });
+  RadiosityOperator from =
+      timed("form factors", [&] { return assemble_operator(scene, s.mesh.patches(), *rays, settings, run); });
+  const SymmetricOperator& K = *from.K;
+  set_operator_record(s, from);
   const std::vector<double> row_sum_before = K.row_sums(run);
+  const bool repair = settings.closure != "none";
+  std::optional<EnvironmentColumn> environment;
   timed("closure", [&] {
-    const std::vector<Spectrum> by_area_alone(s.exitance.size());
-    s.closed = cast_lost_rays(scene, s.mesh.patches(), by_area_alone, *rays, run).lost == 0;
-    s.closure_correction = close(K, s.closed, settings, run);
-    s.row_sum = settings.restore_closure ? K.row_sums(run) : row_sum_before;
+    s.closed = is_closed(s, scene, *rays, run);
+    if (repair && !s.closed)
+      environment = cast_environment_column(scene, s.mesh.patches(), *rays, settings.environment_rays, run);
+    close(s, from, environment ? &*environment : nullptr, settings, run);
+    s.row_sum = repair ? K.row_sums(run) : row_sum_before;
   });
   s.rows = summary_of(s.row_sum, K.gram());
   const bool converged = timed("solve", [&] { return solve_both(s, K, settings, channels, run); });
   timed("error estimate", [&] {
-    estimate_errors(s, {K, row_sum_before, settings.quadrature_tolerance, converged}, channels, run);
+    const bool counted = settings.row_tolerance > 0 || settings.stored_factors;
+    estimate_errors(
+        s,
+        {K, row_sum_before, settings.quadrature_tolerance, counted ? from.row_bound : std::span<const double>(),
+         environment ? &*environment : nullptr, converged},
+        channels, run);
   });
-  timed("energy balance", [&] {
-    const LostRays lost = cast_lost_rays(scene, s.mesh.patches(), s.radiosity, *rays, run);
-    if (s.closed && lost.lost > 0) {
-      s.closed = false;
-      if (settings.restore_closure)
-        core::log::warning("closure was restored, but a few rays do leave the scene: its openings are small, not absent");
-    }
-    s.energy = energy_balance(s, lost);
-  });
-  s.bytes = K.bytes();
+  timed("energy balance", [&] { balance_energy(s, scene, *rays, repair, run); });
   s.stages = std::move(stages);
   return s;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,16 +19,22 @@ struct RadiositySettings {
   std::string solver = "gauss-seidel";
   std::string intersector = "embree";
   solvers::StoppingRule stopping;
-  double quadrature_tolerance = 1e-3;
+  double quadrature_tolerance = 1e-3;  ///< relative, of an entry
+  double row_tolerance = 0;  ///< on the largest row's sum of errors, max_i sum_j |dF_ij|; 0: none but the entries'
   int visibility_rays = 16;
-  bool restore_closure = false;  ///< project K onto symmetric matrices with the row sums of a closed scene
-  double max_memory = 4e9;       ///< [bytes]
-  /// Where K comes from instead of `form_factors`, if there is such a source: entries of all pairs of these elements, each once.
+  std::uint64_t samples = 0;  ///< of Monte Carlo methods: a pair, a row, or in all; 0: as tolerances ask
+  int resolution = 256;       ///< cells across a hemicube or a plane
+  double drop_below = 0;  ///< entries with F_ij and F_ji below it are left out, and accounted for; 0: all are stored
+  std::string closure = "none";  ///< or a repair of row sums by its name in closure.h
+  std::uint64_t environment_rays = 1296;  ///< an element: what of it sees no other, where an open scene's closure asks
+  double max_memory = 4e9;                ///< [bytes]
+  /// Where K comes from instead of `form_factors`, if there is such a source: entries of all pairs of these elements,
+  /// each once.
   std::function<void(const scene::Scene&, std::span<const scene::SurfacePatch>, ExchangeSink&)> stored_factors;
 };
 
-/// The element size asked for, or the default one [m]: that of about 2 500 elements, or, where a mesh of more facets brings
-/// its own, the one that resolves the scene's area into as many.
+/// The element size asked for, or the default one [m]: that of about 2 500 elements, or, where a mesh of more facets
+/// brings its own, the one that resolves the scene's area into as many.
 double element_size_of(const scene::Scene& scene, const RadiositySettings& settings);
 
 /// The scene cut into elements of that size, each four the quarters of one of twice the size.
@@ -40,6 +47,10 @@ struct Forecast {
 };
 /// @throws core::InputError  as `elements_of`
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run);
+
+/// @throws core::InputError  where these elements, by such a method, need more than `max_memory`, saying what would fit
+void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings,
+                    FormFactorMethod::Granularity granularity);
 
 struct StageCost {
   std::string stage;
@@ -84,6 +95,12 @@ struct RadiositySolution {
   PairCounts pairs;
   RowSums rows;
   double closure_correction = 0;  ///< ||K' - K|| / ||K||, Frobenius; 0 where none was asked for
+  /// F_i,env of an open scene whose closure was repaired: sum_j F_ij + F_i,env = 1; else empty.
+  std::vector<double> environment;
+  double largest_row_error = 0;                  ///< stated: max_i sum_j |dF_ij|; 0 where it was not counted
+  bool tolerance_met = true;                     ///< the rows', where one was asked for
+  double kept_share = 1;                         ///< of the pairs of elements, stored in K
+  double largest_dropped = 0, mean_dropped = 0;  ///< sum_j F_ij over what is not; the mean is by area
   EnergyBalance energy;
   std::vector<StageCost> stages;
   double bytes = 0;  ///< memory of the operator
@@ -94,9 +111,12 @@ struct RadiositySolution {
   }
 };
 
+/// Mean of F_i,env by area; 0 where it is not known.
+double mean_environment(const RadiositySolution& solution);
+
 /// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their
 /// children's, so that visibility is sampled once), and estimates the error from the difference (error_estimate.h).
-/// @throws core::InputError   no elements, too little memory, unknown names, closure asked of a scene that is not closed
+/// @throws core::InputError   no elements, too little memory, unknown names, a closure that cannot be (closure.h)
 /// @throws core::Interrupted
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);
 

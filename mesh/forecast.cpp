@@ -16,7 +16,7 @@ constexpr double refined_triangle_area = 0.205;
 double predicted_on_front(const scene::Scene& scene, scene::SurfaceId id, double max_edge) {
   const scene::Surface& surface = scene.surface(id);
   if (const auto cells = quad_grid_cells(surface, max_edge)) return *cells;
-  if (surface.outline) {
+  if (surface.outline && !has_needle(*surface.outline)) {
     const double each = refined_triangle_area * max_edge * max_edge;
     const double narrow = triangles_of_narrow_places(*surface.outline, each);
     // Where there is room; and what corners need at least, as many as facets, or narrow places.

@@ -74,6 +74,17 @@ class Outline {
 
 }  // namespace
 
+bool has_needle(const geometry::PlanarPolygon& polygon) {
+  constexpr double sharpest = 0.0175;  // [rad]
+  const geometry::Ring& ring = polygon.outer;
+  const std::size_t n = ring.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec3 to = ring[(k + 1) % n] - ring[k], from = ring[(k + n - 1) % n] - ring[k];
+    if (to.dot(from) > 0 && to.cross(from).norm() < sharpest * to.dot(from)) return true;
+  }
+  return false;
+}
+
 double triangles_of_narrow_places(const geometry::PlanarPolygon& polygon, double area_each) {
   return Outline(polygon, area_each).triangles();
 }

@@ -1,10 +1,12 @@
 #include "mesh/uniform.h"
 
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/format.h"
 #include "mesh/bisection.h"
+#include "mesh/narrow_places.h"
 #include "mesh/quad_grid.h"
 
 namespace interflect::mesh {
@@ -56,8 +58,21 @@ void require_resolved(const scene::Surface& surface, std::span<const SurfacePatc
 std::vector<SurfacePatch> front_elements(const scene::Scene& scene, SurfaceId id, double max_edge) {
   const scene::Surface& surface = scene.surface(id);
   if (const auto grid = quad_grid(surface, max_edge)) return grid_elements(id, *grid);
-  if (surface.outline) return triangle_elements(id, geometry::triangulate_refined(*surface.outline, max_edge));
+  if (surface.outline && !has_needle(*surface.outline)) return triangle_elements(id, geometry::triangulate_refined(*surface.outline, max_edge));
   return triangle_elements(id, bisected(scene.facets_of(id), max_edge));
+}
+
+/// As few elements as may be: a triangle and a convex quad are one, all else consists of its facets.
+std::vector<SurfacePatch> whole_front(const scene::Scene& scene, SurfaceId id) {
+  constexpr double no_limit = std::numeric_limits<double>::max();
+  const scene::Surface& surface = scene.surface(id);
+  if (const auto grid = quad_grid(surface, no_limit)) return grid_elements(id, *grid);
+  if (surface.outline && surface.outline->outer.size() == 3 && surface.outline->holes.empty())
+    return {make_patch(id, Side::front, surface.outline->outer)};
+  std::vector<SurfacePatch> elements;
+  for (const scene::Facet& facet : scene.facets_of(id))
+    if (facet.area > 0) elements.push_back(make_patch(id, Side::front, facet.corner));  // none beside a corner in mid-edge
+  return elements;
 }
 
 /// The same element seen from the other side: the first corner stays the first.
@@ -67,7 +82,25 @@ SurfacePatch turned(SurfacePatch patch) {
   return patch;
 }
 
+/// All active sides, from what makes the elements of a front.
+template <class Front>
+ElementMesh both_sides(const scene::Scene& scene, const Front& front_of) {
+  std::vector<SurfacePatch> patches;
+  for (const SurfaceId id : scene.surface_ids()) {
+    const std::vector<SurfacePatch> front = front_of(id);
+    require_resolved(scene.surface(id), front);
+    patches.insert(patches.end(), front.begin(), front.end());
+    if (scene.material(id).active(Side::back))
+      for (const SurfacePatch& patch : front) patches.push_back(turned(patch));
+  }
+  return ElementMesh(std::move(patches));
+}
+
 }  // namespace
+
+ElementMesh whole_faces(const scene::Scene& scene) {
+  return both_sides(scene, [&](SurfaceId id) { return whole_front(scene, id); });
+}
 
 ElementMesh uniform(const scene::Scene& scene, double max_edge) {
   if (!(max_edge > 0) || !std::isfinite(max_edge))
@@ -75,15 +108,7 @@ ElementMesh uniform(const scene::Scene& scene, double max_edge) {
   if (const double count = predicted_elements(scene, max_edge); !(count <= most_elements))
     throw core::InputError("element size",
                            core::format("%g m makes %.1e elements, at most 2^31 expected", max_edge, count));
-  std::vector<SurfacePatch> patches;
-  for (const SurfaceId id : scene.surface_ids()) {
-    const std::vector<SurfacePatch> front = front_elements(scene, id, max_edge);
-    require_resolved(scene.surface(id), front);
-    patches.insert(patches.end(), front.begin(), front.end());
-    if (scene.material(id).active(Side::back))
-      for (const SurfacePatch& patch : front) patches.push_back(turned(patch));
-  }
-  return ElementMesh(std::move(patches));
+  return both_sides(scene, [&](SurfaceId id) { return front_elements(scene, id, max_edge); });
 }
 
 ElementMesh quartered(const ElementMesh& mesh) {

@@ -8,10 +8,15 @@ namespace interflect::mesh {
 /// bisection.h), into elements that can be cut into four.
 ///
 /// A surface that is one planar quad becomes a grid of quads; another planar polygon is meshed by Delaunay refinement; facets of
-/// mesh files are bisected at their longest edge, with their neighbours, so that the surface stays conforming [Rivara 1984].
+/// mesh files, and of polygons with a corner below a degree, are bisected at their longest edge, with their neighbours, so that the surface stays conforming [Rivara 1984].
 /// @throws core::InputError  in one line where max_edge is no positive length, where it makes more than 2^31 elements, and
 ///                           where an element is too thin for its coordinates, naming its surface and place
 ElementMesh uniform(const scene::Scene& scene, double max_edge);
+
+/// As few elements as there can be: a surface that is a triangle or a convex quad is one, another planar polygon its
+/// triangulation, a mesh its facets.  None is cut for its shape: needles stay needles.
+/// @throws core::InputError  as `uniform`, where an element is too thin for its coordinates
+ElementMesh whole_faces(const scene::Scene& scene);
 
 /// Every element cut into four, at the midpoints of its edges: children 4i .. 4i+3 of element i, in order.
 ElementMesh quartered(const ElementMesh& mesh);

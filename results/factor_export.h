@@ -4,17 +4,23 @@
 #include <span>
 #include <string>
 
+#include "results/factor_points.h"
 #include "results/factors.h"
 
 /// A finished matrix of view factors in the files of others (docs/view_factor_files.md).  Rows stream through: no file is held in
 /// memory.  All are written as AtomicFile does, and throw core::InputError as it does.
 namespace interflect::results {
 
-/// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n).  Asks for the rows twice.
-void write_factors_npz(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
+/// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n); and of S points sensor_F, sensor_error
+/// (S x n), sensor_row_sum, sensor_row_error, sensor_name, sensor_index (S), sensor_position, sensor_normal (S x 3).  Asks for the rows
+/// twice.
+void write_factors_npz(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows,
+                       const PointFactors& points = {});
 
 /// Matrix Market, coordinate real general, 17 digits: the entries F_ij that are not 0.  Errors have no place in it.
 void write_factors_mtx(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
+/// The same of points: a row each, in their order.
+void write_point_factors_mtx(const std::filesystem::path& file, const PointFactors& points, Index elements);
 
 /// `i,j,F,error` with 17 digits, elements numbered from 0.  Pairs whose F and error are both 0 are left out.
 void write_factors_csv(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
@@ -24,5 +30,11 @@ void write_factors_csv(const std::filesystem::path& file, const FactorElements& 
 /// @param group  an element's: elements.name, or whatever else is to be summed over
 void write_grouped_factors_csv(const std::filesystem::path& file, const FactorElements& elements,
                                const FactorRows& rows, std::span<const std::string> group);
+
+/// `sensor,index,j,F,error`, as `write_factors_csv`; index as in a solve's sensors.csv.
+void write_point_factors_csv(const std::filesystem::path& file, const PointFactors& points, Index elements);
+
+/// `sensor,index,to,F,error`: sums over the elements of each group.
+void write_grouped_point_factors_csv(const std::filesystem::path& file, const PointFactors& points, std::span<const std::string> group);
 
 }  // namespace interflect::results

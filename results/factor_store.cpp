@@ -1,5 +1,7 @@
 #include "results/factor_store.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +15,8 @@ namespace interflect::results {
 namespace {
 
 using Sizes = Hdf5File::Sizes;
+
+std::filesystem::path partial_of(const std::filesystem::path& file) { return file.string() + ".partial"; }
 
 constexpr const char* format_name = "interflect/view-factors/1";
 
@@ -50,12 +54,13 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
 }
 
 /// @param padded  elements, up to whole tiles
-Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded) {
-  std::size_t width = 1;
+Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded, std::span<const measure::SensorPoint> points) {
+  std::size_t width = 1, point_width = 1;
   for (const std::string& name : elements.name) width = std::max(width, name.size());
+  for (const measure::SensorPoint& point : points) point_width = std::max(point_width, point.sensor.size());
   constexpr std::uint64_t structure = 1 << 20, lists = 9 * sizeof(double);
-  const std::uint64_t at_once = structure + elements.area.size() * (lists + width);
-  return {at_once + padded * padded * (sizeof(double) + sizeof(float)), at_once};
+  const std::uint64_t at_once = structure + elements.area.size() * (lists + width) + points.size() * (lists + point_width);
+  return {at_once + padded * padded * (sizeof(double) + sizeof(float)) + point_group::bytes(points.size(), elements.area.size()), at_once};
 }
 
 std::vector<double> read_doubles(const Hdf5File& file, const std::string& name, std::uint64_t count) {
@@ -101,9 +106,9 @@ std::vector<std::uint8_t> read_done(const Hdf5File& file, Index across) {
 }  // namespace
 
 Hdf5File FactorStoreWriter::begin(const std::filesystem::path& file, const FactorElements& elements,
-                                  const FactorStoreKey& key, Index tile) {
+                                  const FactorStoreKey& key, Index tile, std::span<const measure::SensorPoint> points) {
   const std::uint64_t n = size_of(elements.size()), t = size_of(tile), across = (n + t - 1) / t;
-  Hdf5File store = Hdf5File::create(file, room_for(elements, across * t));
+  Hdf5File store = Hdf5File::create(file, room_for(elements, across * t, points));
   store.write_note("format", format_name);
   store.write_note("digest", key.digest);
   store.write_note("settings", key.settings);
@@ -118,13 +123,14 @@ Hdf5File FactorStoreWriter::begin(const std::filesystem::path& file, const Facto
   store.write("normal", {0, 0}, {n, 3}, flat(elements.normal).data());
   store.write("centroid", {0, 0}, {n, 3}, flat(elements.centroid).data());
   store.write_texts("name", elements.name);
+  point_group::make(store, points, n);
   store.flush();
   return store;
 }
 
 FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorElements& elements,
-                                     const FactorStoreKey& key, Index tile)
-    : file_(std::move(file)), partial_(file_.string() + ".partial"), size_(elements.size()), area_(elements.area) {
+                                     const FactorStoreKey& key, Index tile, std::span<const measure::SensorPoint> points)
+    : file_(std::move(file)), partial_(partial_of(file_)), size_(elements.size()), area_(elements.area) {
   const std::size_t n = elements.area.size();
   if (elements.normal.size() != n || elements.centroid.size() != n || elements.name.size() != n || tile < 1)
     throw core::PreconditionError("FactorStoreWriter: one entry per element in each list, and a tile of 1 or more");
@@ -134,17 +140,17 @@ FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorEle
     // Not under its name before it can be opened again.
     const std::filesystem::path unborn = partial_.string() + ".new";
     try {
-      begin(unborn, elements, key, std::min(tile, std::max<Index>(size_, 1)));
+      begin(unborn, elements, key, std::min(tile, std::max<Index>(size_, 1)), points);
       keep_as(unborn, partial_);
     } catch (const core::InputError&) {
       std::filesystem::remove(unborn, error);
       throw;
     }
   }
-  go_on(elements, key);
+  go_on(elements, key, points);
 }
 
-void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreKey& key) {
+void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreKey& key, std::span<const measure::SensorPoint> points) {
   store_ = std::make_unique<Hdf5File>(Hdf5File::open(partial_, Hdf5File::Access::change));
   require_store(*store_);
   require_digest(*store_, store_->note("digest"), key.digest);
@@ -155,11 +161,14 @@ void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreK
   if (n != size_of(elements.size()) || read_doubles(*store_, "area", n) != elements.area ||
       store_->texts("name") != elements.name)
     throw core::InputError(partial_.string(), "its elements are others than those of this run");
+  if (!same_points(point_group::points(*store_, n), points))
+    throw core::InputError(partial_.string(), "it was begun with other sensors (remove it to begin anew)");
   tile_ = tile_size(*store_, n);
   across_ = (size_ + tile_ - 1) / tile_;
   require_sizes(*store_, "K", {n, n});
   require_sizes(*store_, "K_error", {n, n});
   done_ = read_done(*store_, across_);
+  points_done_ = point_group::done(*store_, points.size());
 }
 
 bool FactorStoreWriter::is_done(Index I, Index J) const {
@@ -208,6 +217,22 @@ void FactorStoreWriter::read(Index I, Index J, std::span<double> K, std::span<do
   std::copy(bound.begin(), bound.end(), error.begin());
 }
 
+bool FactorStoreWriter::is_point_done(Index s) const {
+  const std::lock_guard lock(mutex_);
+  return points_done_[size_of(s)] != 0;
+}
+
+void FactorStoreWriter::write_point(Index s, std::span<const double> F, std::span<const double> error) {
+  const bool fits = s >= 0 && size_of(s) < points_done_.size() && F.size() <= area_.size() && error.size() == F.size();
+  if (!fits) throw core::PreconditionError("FactorStoreWriter: no such point, or more numbers than elements");
+  for (std::size_t j = 0; j < F.size(); ++j)
+    if (!std::isfinite(F[j]) || !(error[j] >= 0)) throw core::PreconditionError("FactorStoreWriter: not a number");
+  const std::lock_guard lock(mutex_);
+  if (!store_) throw core::PreconditionError("FactorStoreWriter: it is finished");
+  point_group::write_row(*store_, s, F, error);
+  points_done_[size_of(s)] = 1;
+}
+
 void FactorStoreWriter::write_row_sums() {
   std::vector<double> sum(area_.size()), bound(area_.size()), K;
   std::vector<float> error;
@@ -237,7 +262,10 @@ void FactorStoreWriter::finish() {
   if (done() != tiles()) throw core::PreconditionError("FactorStoreWriter: a tile is missing");
   const std::lock_guard lock(mutex_);
   if (!store_) throw core::PreconditionError("FactorStoreWriter: it is finished");
+  if (std::find(points_done_.begin(), points_done_.end(), 0) != points_done_.end())
+    throw core::PreconditionError("FactorStoreWriter: a point is missing");
   write_row_sums();
+  point_group::write_sums(*store_, points_done_.size(), area_.size());
   store_->flush();
   store_.reset();
   keep_as(partial_, file_);
@@ -263,6 +291,7 @@ FactorStore::FactorStore(const std::filesystem::path& file) : store_(Hdf5File::o
     for (Index J = I; J < across; ++J)
       if (done[size_of(I * across + J)] == 0)
         throw core::InputError(file.string(), "it is not finished: the run that computes it can be repeated to go on");
+  points_ = point_group::points(store_, n);
 }
 
 void FactorStore::require_geometry(const std::string& digest) const { require_digest(store_, key_.digest, digest); }
@@ -321,6 +350,23 @@ FactorRows FactorStore::rows() const {
     const double area = elements_.area[size_of(i)];
     for (std::size_t j = 0; j < n; ++j) F[j] = held->K[at + j] / area, error[j] = held->error[at + j] / area;
   };
+}
+
+PointFactors FactorStore::point_factors() const {
+  return {points_, [this](Index s, std::span<double> F, std::span<double> error) { point_group::read_row(store_, s, F, error); }};
+}
+
+double begun_bytes(const std::filesystem::path& file) {
+  struct ::stat status {};
+  constexpr double block = 512;
+  return ::stat(partial_of(file).c_str(), &status) == 0 ? block * static_cast<double>(status.st_blocks) : 0;
+}
+
+double factor_store_bytes(std::uint64_t elements, std::uint64_t points, std::uint64_t tile) {
+  const auto t = static_cast<double>(std::min(tile, elements)), n = static_cast<double>(elements);
+  const double across = elements > 0 ? std::ceil(n / t) : 0;
+  constexpr double per_pair = sizeof(double) + sizeof(float), lists = 9 * sizeof(double) + 65, structure = 1 << 20;
+  return 0.5 * per_pair * across * (across + 1) * t * t + lists * n + static_cast<double>(point_group::bytes(points, elements)) + structure;
 }
 
 }  // namespace interflect::results

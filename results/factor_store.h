@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "results/factor_points.h"
 #include "results/factors.h"
 #include "results/hdf5_file.h"
 
@@ -29,11 +30,12 @@ struct FactorStoreKey {
 class FactorStoreWriter {
  public:
   /// Begins a store, or goes on with FILE.partial.
-  /// @param tile  elements along the side of a tile; one that goes on keeps the size that it was begun with
-  /// @throws core::InputError  FILE.partial is of another geometry, of other settings, damaged, or open elsewhere; or no
-  ///                           file can be written there
+  /// @param tile    elements along the side of a tile; one that goes on keeps the size that it was begun with
+  /// @param points  whose view factors the store has as well, a row for each
+  /// @throws core::InputError  FILE.partial is of another geometry, of other settings or sensors, damaged, or open elsewhere; or
+  ///                           no file can be written there
   FactorStoreWriter(std::filesystem::path file, const FactorElements& elements, const FactorStoreKey& key,
-                    Index tile = 512);
+                    Index tile = 512, std::span<const measure::SensorPoint> points = {});
 
   Index size() const { return size_; }
   Index tile() const { return tile_; }
@@ -53,14 +55,18 @@ class FactorStoreWriter {
   /// A tile as it was written last, by this run or an earlier one; one that was not is 0.
   void read(Index I, Index J, std::span<double> K, std::span<double> error) const;
 
+  bool is_point_done(Index s) const;
+  /// Point view factors; fewer than there are elements: the rest is 0.
+  void write_point(Index s, std::span<const double> F, std::span<const double> error);
+
   /// Sums the rows, and gives the file its name.  Nothing can be written afterwards.
-  /// @throws core::PreconditionError  if a tile is missing
+  /// @throws core::PreconditionError  if a tile, or a point, is missing
   void finish();
 
  private:
   static Hdf5File begin(const std::filesystem::path& file, const FactorElements& elements, const FactorStoreKey& key,
-                        Index tile);
-  void go_on(const FactorElements& elements, const FactorStoreKey& key);
+                        Index tile, std::span<const measure::SensorPoint> points);
+  void go_on(const FactorElements& elements, const FactorStoreKey& key, std::span<const measure::SensorPoint> points);
   void write_row_sums();
 
   std::filesystem::path file_, partial_;
@@ -68,6 +74,7 @@ class FactorStoreWriter {
   Index size_ = 0, tile_ = 0, across_ = 0;
   mutable std::mutex mutex_;
   std::vector<std::uint8_t> done_;  ///< [I * across + J]
+  std::vector<std::uint8_t> points_done_;
   std::vector<double> area_;
 };
 
@@ -93,6 +100,10 @@ class FactorStore {
   /// Rows of F for the exports; they keep a tile's height of rows, and this store must outlive them.
   FactorRows rows() const;
 
+  const std::vector<measure::SensorPoint>& points() const { return points_; }  ///< mostly none; on which surface they lie is not kept
+  /// For the exports; this store must outlive them.
+  PointFactors point_factors() const;
+
  private:
   void read_tile_rows(Index I, Index first, Index count, double* K, double* error) const;
 
@@ -100,7 +111,13 @@ class FactorStore {
   FactorStoreKey key_;
   FactorElements elements_;
   std::vector<double> row_sum_, row_error_;
+  std::vector<measure::SensorPoint> points_;
   Index tile_ = 0;
 };
+
+/// Bytes on the disk of what an interrupted run has left of a store.
+double begun_bytes(const std::filesystem::path& file);
+/// Most bytes that a store takes on the disk: of the matrix the tiles of the upper triangle alone.
+double factor_store_bytes(std::uint64_t elements, std::uint64_t points, std::uint64_t tile = 512);
 
 }  // namespace interflect::results

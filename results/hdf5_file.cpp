@@ -131,7 +131,9 @@ void make_array(hid_t file, const Checks& check, hid_t type, const std::string& 
   }
   // Tiles that are never written stay holes; the small arrays are all zeros from the start.
   check(H5Pset_fill_time(how, tile.empty() ? H5D_FILL_TIME_ALLOC : H5D_FILL_TIME_NEVER));
-  const Handle made(check(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT)), H5Dclose);
+  const Handle link(check(H5Pcreate(H5P_LINK_CREATE)), H5Pclose);
+  check(H5Pset_create_intermediate_group(link, 1));
+  const Handle made(check(H5Dcreate2(file, name.c_str(), type, space, link, how, H5P_DEFAULT)), H5Dclose);
 }
 
 /// An array without a cache of its tiles.
@@ -239,6 +241,10 @@ void Hdf5File::make_bytes(const std::string& name, const Sizes& sizes) {
   const Turn turn;
   make_array(file_, writing(path_), H5T_STD_U8LE, name, sizes, {});
 }
+void Hdf5File::make_counts(const std::string& name, const Sizes& sizes) {
+  const Turn turn;
+  make_array(file_, writing(path_), H5T_STD_U64LE, name, sizes, {});
+}
 
 void Hdf5File::write_texts(const std::string& name, std::span<const std::string> texts, const Sizes& sizes) {
   std::size_t width = 1;
@@ -281,6 +287,10 @@ void Hdf5File::write(const std::string& name, const Sizes& from, const Sizes& si
   const Turn turn;
   write_part(path_, file_, name, from, sizes, H5T_NATIVE_UINT8, values);
 }
+void Hdf5File::write(const std::string& name, const Sizes& from, const Sizes& sizes, const std::uint64_t* values) {
+  const Turn turn;
+  write_part(path_, file_, name, from, sizes, H5T_NATIVE_UINT64, values);
+}
 void Hdf5File::read(const std::string& name, const Sizes& from, const Sizes& sizes, double* values) const {
   const Turn turn;
   read_part(path_, file_, name, from, sizes, H5T_NATIVE_DOUBLE, values);
@@ -292,6 +302,11 @@ void Hdf5File::read(const std::string& name, const Sizes& from, const Sizes& siz
 void Hdf5File::read(const std::string& name, const Sizes& from, const Sizes& sizes, std::uint8_t* values) const {
   const Turn turn;
   read_part(path_, file_, name, from, sizes, H5T_NATIVE_UINT8, values);
+}
+
+void Hdf5File::read(const std::string& name, const Sizes& from, const Sizes& sizes, std::uint64_t* values) const {
+  const Turn turn;
+  read_part(path_, file_, name, from, sizes, H5T_NATIVE_UINT64, values);
 }
 
 bool Hdf5File::has(const std::string& name) const {

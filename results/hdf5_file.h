@@ -8,7 +8,8 @@
 
 namespace interflect::results {
 
-/// An HDF5 file, opened: arrays of numbers and lists of texts under names, without a type of the library's.
+/// An HDF5 file, opened: arrays of numbers and lists of texts under names, without a type of the library's.  A name may lie in a
+/// group: "sensors/F".
 ///
 /// Space is given to arrays when they are made, and nothing of them is kept in memory: a file whose arrays exist never
 /// changes its structure again, so that a process may die at any moment and leave a file that opens.  The space of what was
@@ -37,6 +38,7 @@ class Hdf5File {
   void make_doubles(const std::string& name, const Sizes& sizes, const Sizes& tile = {});
   void make_floats(const std::string& name, const Sizes& sizes, const Sizes& tile = {});
   void make_bytes(const std::string& name, const Sizes& sizes);
+  void make_counts(const std::string& name, const Sizes& sizes);
   void write_texts(const std::string& name, std::span<const std::string> texts);
   /// A text about the whole file.
   void write_note(const std::string& name, const std::string& text);
@@ -46,9 +48,11 @@ class Hdf5File {
   void write(const std::string& name, const Sizes& from, const Sizes& sizes, const double* values);
   void write(const std::string& name, const Sizes& from, const Sizes& sizes, const float* values);
   void write(const std::string& name, const Sizes& from, const Sizes& sizes, const std::uint8_t* values);
+  void write(const std::string& name, const Sizes& from, const Sizes& sizes, const std::uint64_t* values);
   void read(const std::string& name, const Sizes& from, const Sizes& sizes, double* values) const;
   void read(const std::string& name, const Sizes& from, const Sizes& sizes, float* values) const;
   void read(const std::string& name, const Sizes& from, const Sizes& sizes, std::uint8_t* values) const;
+  void read(const std::string& name, const Sizes& from, const Sizes& sizes, std::uint64_t* values) const;
 
   bool has(const std::string& name) const;
   std::string note(const std::string& name) const;

@@ -21,4 +21,8 @@ class OutputDirectory {
   std::vector<std::filesystem::path> made_;  ///< the innermost first
 };
 
+/// @param bytes  that are going to be written there
+/// @throws core::InputError  where its disk has not that much left: what cannot be kept is not begun
+void require_disk_room(const std::filesystem::path& directory, double bytes);
+
 }  // namespace interflect::results

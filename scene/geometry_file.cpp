@@ -165,6 +165,13 @@ ExchangeScene read_by_extension(const std::filesystem::path& file, const Geometr
 
 }  // namespace
 
+Scene scene_of_masks(const ExchangeScene& geometry) {
+  SceneBuilder builder = plain_builder();
+  for (const ExchangeMask& mask : geometry.masks)
+    builder.add_polygon(mask.name, {mask.ring, {}}, builder.add_material(neutral(mask.material, Sides::front)));
+  return builder.finish(geometry.scene.file.string());
+}
+
 ExchangeScene read_geometry_as_scene(const std::filesystem::path& file, const GeometryOptions& options) {
   ExchangeScene out = read_by_extension(file, options);
   const std::string shown = file.string();

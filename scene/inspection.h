@@ -15,6 +15,7 @@ struct Inspection {
     std::string surface, other;  ///< names; `other` empty where one surface is concerned
     Vec3 where;                  ///< a point of it [m]
     double size;                 ///< length of the gap or edge [m], or area of the overlap [m²]
+    double same_way = 0;         ///< area of the overlap where both fronts look the same way [m²]
   };
   std::vector<Finding> findings;  ///< the largest first within a kind
   double open_edge_length = 0;    ///< [m] of edges that no other facet continues: gaps and rims
@@ -27,6 +28,10 @@ struct Inspection {
 /// of a two-sided surface is told apart: a sheet that stands free has one.  Normals are inconsistent where two one-sided neighbours
 /// run along their common edge in the same direction.
 Inspection inspect(const Scene& scene);
+
+/// Duplicate faces and coplanar overlaps alone.
+/// @param tolerance  as near to a plane counts as in it, and strips as narrow do not count [m]
+std::vector<Inspection::Finding> overlaps(const Scene& scene, double tolerance);
 
 std::string describe(Inspection::Finding::Kind kind);
 

@@ -13,7 +13,7 @@ using Kind = Inspection::Finding::Kind;
 
 /// What two surfaces have in common.
 struct Shared {
-  double area = 0, largest = 0;
+  double area = 0, largest = 0, same_way = 0;
   double duplicated = 0;  ///< area of facets that are the same
   Vec3 where = Vec3::Zero();
 };
@@ -54,6 +54,7 @@ void find_coplanar_faces(const Scene& scene, double tolerance, Inspection& inspe
       const auto pair = std::minmax({f.surface.value, g.surface.value});
       Shared& s = shared[{pair.first, pair.second}];
       s.area += area;
+      if (f.normal.dot(g.normal) > 0) s.same_way += area;
       if (area >= (1 - 1e-6) * std::max(f.area, g.area)) s.duplicated += area;
       if (area > s.largest) s.largest = area, s.where = middle(f_larger ? g : f);
     };
@@ -65,8 +66,14 @@ void find_coplanar_faces(const Scene& scene, double tolerance, Inspection& inspe
         s.duplicated >= (1 - 1e-6) * s.area || (pair.first != pair.second && s.area >= (1 - 1e-6) * larger);
     inspection.findings.push_back({duplicate ? Kind::duplicate_faces : Kind::coplanar_overlap,
                                    scene.surfaces[pair.first].name,
-                                   pair.first == pair.second ? "" : scene.surfaces[pair.second].name, s.where, s.area});
+                                   pair.first == pair.second ? "" : scene.surfaces[pair.second].name, s.where, s.area, s.same_way});
   }
+}
+
+std::vector<Inspection::Finding> overlaps(const Scene& scene, double tolerance) {
+  Inspection found;
+  find_coplanar_faces(scene, tolerance, found);
+  return found.findings;
 }
 
 }  // namespace interflect::scene

@@ -198,37 +198,52 @@ void DenseSymmetric::rows(Index first, Index count, solvers::Columns out) const 
   evaluated_.fetch_add(count, std::memory_order_relaxed);
 }
 
-std::vector<double> DenseSymmetric::row_sums(Run& run) const {
-  const solvers::ColumnMatrix ones = solvers::ColumnMatrix::Ones(size(), 1);
-  solvers::ColumnMatrix sums(size(), 1);
-  apply(ones, sums, run);
-  std::vector<double> F(areas_.size());
-  for (std::size_t a = 0; a < F.size(); ++a) F[a] = sums(static_cast<Index>(a), 0) / areas_[a];
-  return F;
-}
-
 bool DenseSymmetric::has_errors() const {
   return std::any_of(errors_.begin(), errors_.end(), [](const auto& errors) { return errors.load() != nullptr; });
 }
 
-void DenseSymmetric::scale(std::span<const double> s, Run& run) {
-  assert(static_cast<Index>(s.size()) == size());
-  const auto factor = [&](Index a) { return a < size() ? s[static_cast<std::size_t>(a)] : 0.0; };
-  run.threads.for_blocks(static_cast<Index>(strips_.size()), 1, [&](Index strip, Index) {
-    for (Index I = strips_[static_cast<std::size_t>(strip)].first; I < strips_[static_cast<std::size_t>(strip)].end;
-         ++I)
-      for (Index J = I; J < tile_rows_; ++J) {
-        double* K = tile_data(I, J);
-        float* errors = errors_[static_cast<std::size_t>(tile_at(I, J))].load(std::memory_order_acquire);
-        for (Index i = 0; i < tile_size; ++i)
-          for (Index j = 0; j < tile_size; ++j) {
-            const double both = factor(I * tile_size + i) * factor(J * tile_size + j);
-            K[i * tile_size + j] *= both;
-            if (errors != nullptr) errors[i * tile_size + j] *= static_cast<float>(both);
-          }
+std::span<const StoredPair> DenseSymmetric::pairs_of(Index I, Index J, std::span<StoredPair> room) const {
+  const double* K = tile_data(I, J);
+  const float* errors = errors_[static_cast<std::size_t>(tile_at(I, J))].load(std::memory_order_acquire);
+  const Index rows = std::min(tile_size, size() - I * tile_size), columns = std::min(tile_size, size() - J * tile_size);
+  std::size_t count = 0;
+  for (Index i = 0; i < rows; ++i)
+    for (Index j = I == J ? i : 0; j < columns; ++j) {
+      const double error = errors == nullptr ? 0.0 : static_cast<double>(errors[i * tile_size + j]);
+      room[count] = {static_cast<std::uint32_t>(I * tile_size + i), static_cast<std::uint32_t>(J * tile_size + j),
+                     K[i * tile_size + j], error};
+      count += K[i * tile_size + j] != 0 || error != 0;
+    }
+  return room.first(count);
+}
+
+void DenseSymmetric::visit(Index strip, const Visit& visit) const {
+  const auto [first, end] = strips_[static_cast<std::size_t>(strip)];
+  std::vector<StoredPair> room(static_cast<std::size_t>(tile_entries) + 1);  // one is written before it counts
+  for (Index I = first; I < end; ++I)
+    for (Index J = I; J < tile_rows_; ++J)
+      if (const auto pairs = pairs_of(I, J, room); !pairs.empty()) visit(pairs);
+}
+
+void DenseSymmetric::change(const NewEntry& entry, Run& run) {
+  run.threads.for_blocks(strips(), 1, [&](Index strip, Index) {
+    visit(strip, [&](std::span<const StoredPair> pairs) {
+      const Index I = Index{pairs.front().a} / tile_size, J = Index{pairs.front().b} / tile_size;
+      double* K = tile_data(I, J);
+      for (const StoredPair& pair : pairs) {
+        const Index i = Index{pair.a} - I * tile_size, j = Index{pair.b} - J * tile_size;
+        const double K_ab = K[i * tile_size + j] = entry(pair);
+        if (I == J) K[j * tile_size + i] = K_ab;
       }
+    });
   });
-  for (std::size_t a = 0; a < self_.size(); ++a) self_[a] = entry(static_cast<Index>(a), static_cast<Index>(a));
+  for (std::size_t a = 0; a < self_.size(); ++a) self_[a] = this->entry(static_cast<Index>(a), static_cast<Index>(a));
+}
+
+std::unique_ptr<SymmetricOperator> DenseSymmetric::alike(std::vector<double> areas, const Fill& fill, Run&) const {
+  auto other = std::make_unique<DenseSymmetric>(std::move(areas));
+  fill(*other);
+  return other;
 }
 
 double DenseSymmetric::bytes() const {

@@ -64,6 +64,8 @@ std::vector<Ring> outside(const std::vector<Ring>& rings, const Ring& cut, doubl
 
 double area_of(const Ring& ring) { return geometry::vector_area(ring).norm(); }
 
+std::string material_name(double emittance) { return core::format("emittance %.6g", emittance); }
+
 class View3dImport {
  public:
   View3dImport(SceneBuilder& builder, ExchangeScene& out, const std::vector<View3dSurface>& surfaces, Sides sides,
@@ -145,7 +147,7 @@ class View3dImport {
     const auto [at, is_new] = materials_.try_emplace(neutral ? -1 : emittance);
     if (!is_new) return at->second;
     Material material;
-    material.name = neutral ? "obstruction" : core::format("emittance %.6g", emittance);
+    material.name = neutral ? "obstruction" : material_name(emittance);
     for (int c = 0; c < builder_.scene().channel_count(); ++c) material.reflectance[c] = neutral ? 0.5 : 1 - emittance;
     material.sides = sides_;
     return at->second = builder_.add_material(material);
@@ -186,7 +188,8 @@ class View3dImport {
 
   void add_mask(std::size_t k, const std::optional<SurfaceId>& base) {
     if (!base) fail(k, core::format("covers all that is left of its base, surface %zu", surfaces_[k].base));
-    out_.masks.push_back({surfaces_[k].name, *base, area_of(surfaces_[k].ring), std::max(surfaces_[k].emittance, 1e-3)});
+    const View3dSurface& s = surfaces_[k];
+    out_.masks.push_back({s.name, *base, area_of(s.ring), std::max(s.emittance, 1e-3), s.ring, material_name(std::max(s.emittance, 1e-3))});
   }
 
   SceneBuilder& builder_;

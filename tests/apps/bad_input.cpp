@@ -43,6 +43,9 @@ TEST(BadInput, no_such_command_or_option) {
   expect_refused({"solve", shipped_scene("cube")}, "--out");
   expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--element-size", "-1"}, "--element-size");
   expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--solver", "magic"}, "gauss-seidel");
+  expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--closure", "magic"}, "least-squares");
+  expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--drop-below", "2"}, "--drop-below");
+  expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--tolerance", "1"}, "--tolerance");
   for (const char* seed : {"-1", "18446744073709551616", "1e3", "seven"})
     expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--seed", seed}, "--seed");
 }

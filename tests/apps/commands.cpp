@@ -143,6 +143,37 @@ TEST(Solve, the_cube_has_its_known_discrete_solution) {
   }
 }
 
+// Every option of the matrix, on an open scene and a closed one.
+TEST(Solve, repairs_drops_and_meets_tolerances_as_asked) {
+  const TemporaryFolder folder;
+  const auto record = [&](const std::string& scene, std::vector<std::string> options, const std::string& said) {
+    std::vector<std::string> arguments{"solve", shipped_scene(scene), "--element-size", "0.25", "--no-pictures", "-o", folder / "out"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome solve = interflect(arguments);
+    EXPECT_EQ(solve.status, 0) << solve.err;
+    EXPECT_TRUE(contains(solve.out, said)) << said << " in " << solve.out;
+    return json::parse(read_file(folder / "out/summary.json"));
+  };
+  json r = record("cube", {"--closure", "least-squares"}, "closure     form factors changed by");
+  EXPECT_EQ(r.at("settings").at("closure"), "least-squares");
+  EXPECT_NEAR(r.at("form_factors").at("row_sum_lowest"), 1, 1e-12);
+  r = record("cube", {"--restore-closure"}, "rows        sum_j F_ij: mean 1.000000, from 1.000000 to 1.000000");
+  EXPECT_EQ(r.at("settings").at("closure"), "scaling");
+  r = record("parallel_plates", {"--closure", "least-squares"}, "environment ");
+  EXPECT_NEAR(r.at("form_factors").at("environment_mean").get<double>() + r.at("form_factors").at("row_sum_mean").get<double>(), 1, 1e-12);
+  r = record("cube", {"--drop-below", "0.02"}, "of the pairs; dropped sum_j F_ij: mean");
+  EXPECT_LT(r.at("form_factors").at("kept_share"), 1);
+  EXPECT_GT(r.at("form_factors").at("dropped_mean"), 0);
+  EXPECT_LE(r.at("form_factors").at("dropped_mean"), r.at("form_factors").at("dropped_highest"));
+  r = record("cube", {"--tolerance", "1e-5"}, "row errors  sum_j |dF_ij| at most");
+  EXPECT_LE(r.at("form_factors").at("largest_row_error"), 1e-5);
+  EXPECT_EQ(r.at("form_factors").at("tolerance_met"), true);
+  r = record("cube", {"--form-factors", "hemisphere-rays", "--samples", "500"}, "elements");
+  EXPECT_EQ(r.at("form_factors").at("rays"), 500 * 96);
+  r = record("cube", {"--form-factors", "hemicube", "--resolution", "32"}, "elements");
+  EXPECT_EQ(r.at("settings").at("resolution"), 32);
+}
+
 TEST(Solve, a_forecast_writes_nothing) {
   const TemporaryFolder folder;
   const Outcome forecast = interflect({"solve", shipped_scene("office"), "-o", folder / "out", "--forecast"});

@@ -30,12 +30,6 @@ double largest_error(const std::vector<double>& F) {
   return largest;
 }
 
-Eigen::MatrixXd full(const DenseSymmetric& K) {
-  solvers::ColumnMatrix rows(K.size(), K.size());
-  K.rows(0, K.size(), rows);
-  return rows;
-}
-
 }  // namespace
 
 TEST(Closure, makes_row_sums_1_and_keeps_symmetry_positivity_and_zeros) {

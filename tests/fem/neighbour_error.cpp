@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fem/assembly.h"
+#include "fem/operator/dense_symmetric.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "mesh/uniform.h"
 #include "tests/fem/rooms.h"

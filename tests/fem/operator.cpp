@@ -132,10 +132,8 @@ TEST(DenseSymmetric, keeps_its_diagonal_for_solvers) {
   K.add(66, 66, {0.25, 0});
   EXPECT_EQ(K.self()[66], 0.25);
   EXPECT_EQ(K.self()[65], 0);
-  std::vector<double> s(70, 1.0);
-  s[66] = 2;
   core::LocalRun run;
-  K.scale(s, run);
+  K.change([](const StoredPair& pair) { return 4 * pair.K; }, run);
   EXPECT_EQ(K.self()[66], 1.0);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "fem/operator/dense_symmetric.h"
+#include "fem/operator/sparse_symmetric.h"
 
 namespace interflect::fem {
 
@@ -44,6 +45,22 @@ inline OperatorPair random_pair(Index n, std::uint64_t seed, double decades = 4,
   for (Index a = 0; a < n; ++a)
     for (Index b = a; b < n; ++b) pair.K->add(a, b, {pair.full(a, b), pair.errors(a, b)});
   return pair;
+}
+
+/// The same entries, stored sparsely.
+inline std::unique_ptr<SparseSymmetric> sparse(const OperatorPair& pair, double drop_below, const Run& run) {
+  SparseAssembly assembly(std::vector<double>(pair.areas.begin(), pair.areas.end()), drop_below);
+  const Index n = pair.areas.size();
+  run.threads.for_blocks(n, 1, [&](Index a, Index) {
+    for (Index b = a; b < n; ++b) assembly.add(b, a, {pair.full(a, b), pair.errors(a, b)});
+  });
+  return assembly.packed(run);
+}
+
+inline Eigen::MatrixXd full(const SymmetricOperator& K) {
+  solvers::ColumnMatrix rows(K.size(), K.size());
+  K.rows(0, K.size(), rows);
+  return rows;
 }
 
 inline solvers::ColumnMatrix random_columns(Index n, Index columns, std::uint64_t seed) {

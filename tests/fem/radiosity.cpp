@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "fem/closure.h"
 #include "tests/fem/rooms.h"
 #include "tests/support/shapes.h"
 
@@ -72,21 +73,76 @@ TEST(Radiosity, of_a_furnace_is_one_as_far_as_rows_sum_to_one) {
   }
 }
 
+/// A furnace with a body in it, so that visibility is sampled.
+scene::Scene furnace(double rho) {
+  Room room;
+  room.box({0, 0, 0}, {1, 2, 1.5}, 1, true, rho, 1 - rho);
+  room.box({.25, .5, .5}, {.5, .5, .5}, 1, false, rho, 1 - rho);
+  return room.finish();
+}
+
 TEST(Radiosity, of_a_furnace_is_one_to_ten_digits_with_closure_restored) {
-  for (double rho : {.2, .5, .8, .95}) {
-    Room room;
-    room.box({0, 0, 0}, {1, 2, 1.5}, 1, true, rho, 1 - rho);
-    room.box({.25, .5, .5}, {.5, .5, .5}, 1, false, rho, 1 - rho);
-    RadiositySettings settings;
-    settings.element_size = .5;
-    settings.restore_closure = true;
-    settings.stopping.tolerance = 1e-13;
-    core::LocalRun run(1, 2);
-    const auto s = solve_radiosity(room.finish(), settings, run.get());
-    EXPECT_GT(s.closure_correction, 0);
-    EXPECT_LT(s.closure_correction, 0.05);
-    for (const Spectrum& b : s.radiosity) EXPECT_NEAR(b[0], 1.0, 1e-10);
+  for (const std::string& closure : closure_names())
+    for (const double drop_below : {0.0, 2e-3})
+      for (double rho : {.2, .5, .8, .95}) {
+        RadiositySettings settings;
+        settings.element_size = .5;
+        settings.closure = closure;
+        settings.drop_below = drop_below;
+        settings.stopping.tolerance = 1e-13;
+        core::LocalRun run(1, 2);
+        const auto s = solve_radiosity(furnace(rho), settings, run.get());
+        EXPECT_GT(s.closure_correction, 0);
+        EXPECT_LT(s.closure_correction, 0.05);
+        EXPECT_EQ(s.largest_dropped > 0, drop_below > 0);
+        EXPECT_TRUE(s.environment.empty());
+        for (const Spectrum& b : s.radiosity) EXPECT_NEAR(b[0], 1.0, 1e-10) << closure << " " << drop_below;
+      }
+}
+
+// Pairs that are left out change the solution by no more than the estimate grows by: same K but for them.
+TEST(Radiosity, says_what_dropped_pairs_may_do) {
+  RadiositySettings settings;
+  settings.element_size = .125;
+  core::LocalRun run(1, 2);
+  const auto scene = cube(.5);
+  const auto all = solve_radiosity(scene, settings, run.get());
+  EXPECT_EQ(all.kept_share, 1);
+  for (const double drop_below : {1e-3, 3e-3}) {
+    settings.drop_below = drop_below;
+    const auto s = solve_radiosity(scene, settings, run.get());
+    EXPECT_LT(s.kept_share, 0.95);
+    EXPECT_LT(s.bytes, all.bytes);
+    EXPECT_GT(s.mean_dropped, 0);
+    EXPECT_LE(s.mean_dropped, s.largest_dropped);
+    double difference = 0, grown = 0;
+    for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+      EXPECT_NEAR(s.row_sum[i], all.row_sum[i], s.largest_dropped + 1e-12);
+      const double off = std::abs(s.irradiance[i][0] - all.irradiance[i][0]);
+      EXPECT_LE(off, s.irradiance_error[i][0]) << drop_below;
+      difference += off;
+      grown += s.irradiance_error[i][0] - all.irradiance_error[i][0];
+    }
+    EXPECT_GT(difference, 0);
+    EXPECT_LE(difference, grown) << drop_below;
   }
+}
+
+TEST(Radiosity, meets_a_tolerance_of_rows_and_says_so) {
+  RadiositySettings settings;
+  settings.element_size = .25;
+  settings.form_factors = "analytic";
+  core::LocalRun run(1, 2);
+  for (const double tolerance : {1e-3, 1e-6}) {
+    settings.row_tolerance = tolerance;
+    const auto s = solve_radiosity(furnace(.5), settings, run.get());
+    EXPECT_TRUE(s.tolerance_met);
+    EXPECT_LE(s.largest_row_error, tolerance);
+    for (const double sum : s.row_sum) EXPECT_NEAR(sum, 1, tolerance);
+  }
+  settings.form_factors = "hemicube";  // cannot be asked again
+  settings.resolution = 16;
+  EXPECT_FALSE(solve_radiosity(furnace(.5), settings, run.get()).tolerance_met);
 }
 
 // docs/truths.md 2.4: open, so nothing can be repaired.  Means over the plates, whose error falls as h².
@@ -255,12 +311,10 @@ TEST(Radiosity, refuses_what_it_cannot_do_in_one_line) {
   settings.element_size = .5;
   settings.form_factors = "by magic";
   EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError);
-  Room open;
-  open.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .5, 1);
   settings = {};
   settings.element_size = .5;
-  settings.restore_closure = true;
-  EXPECT_THROW(solve_radiosity(open.finish(), settings, run.get()), core::InputError);
+  settings.closure = "by decree";
+  EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError);
 }
 
 // Facets that a mesh brings are elements whatever the size: the way out that is named must be one.
@@ -305,6 +359,33 @@ TEST(Radiosity, has_elements_by_default_that_resolve_the_scene) {
   const mesh::ElementMesh mesh = elements_of(scene, settings);
   for (const auto& patch : mesh.patches()) of_floor += patch.surface.value == 1;
   EXPECT_GT(of_floor, 400u);
+}
+
+// 12 bytes a pair and three quarters of one; both views of a pair, 24 bytes, for methods that go by rows; counts, 4, for lines; at most
+// N / drop_below kept pairs.
+TEST(Radiosity, is_forecast_with_what_its_method_needs_on_the_way) {
+  const auto scene = cube(.5);
+  core::LocalRun run(1, 1);
+  RadiositySettings settings;
+  settings.element_size = .1;
+  const double pairs = 0.5 * 600 * 600;
+  const auto beside_elements = [&](const std::string& method) {
+    settings.form_factors = method;
+    return forecast(scene, settings, run.get()).bytes - 4000 * 600;
+  };
+  EXPECT_DOUBLE_EQ(beside_elements("gauss-lambert"), 12.75 * pairs);
+  EXPECT_DOUBLE_EQ(beside_elements("hemicube"), 36 * pairs);
+  settings.samples = 1000;
+  EXPECT_DOUBLE_EQ(beside_elements("global-lines"), 16 * pairs);
+  settings.drop_below = 0.05;
+  EXPECT_NEAR(beside_elements("gauss-lambert"), (16 + 20 * 180000.0 / 16 / 12000) * 12000, 1);
+  settings.drop_below = 0;
+  settings.max_memory = 5e6;
+  settings.form_factors = "gauss-lambert";
+  EXPECT_NO_THROW(forecast(scene, settings, run.get()));
+  settings.form_factors = "hemicube";
+  EXPECT_THROW(forecast(scene, settings, run.get()), core::InputError);
+  EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError) << "before the work, not when memory is gone";
 }
 
 TEST(Radiosity, is_forecast_within_its_element_count) {

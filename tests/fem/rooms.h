@@ -124,7 +124,7 @@ inline RadiositySolution solve(const scene::Scene& scene, const SolveOptions& op
   settings.element_size = options.element_size;
   settings.quadrature_tolerance = options.tolerance;
   settings.visibility_rays = options.rays;
-  settings.restore_closure = options.closure;
+  if (options.closure) settings.closure = "scaling";
   settings.intersector = options.intersector;
   core::LocalRun run(options.seed, options.threads);
   return solve_radiosity(scene, settings, run.get());

@@ -205,10 +205,45 @@ TEST(FactorExport, groups_are_sums_weighted_by_area_with_quoted_names) {
   EXPECT_THROW(write_grouped_factors_csv(scratch / "G.csv", elements, rows, {}), core::PreconditionError);
 }
 
+TEST(FactorExport, points_are_rows_of_their_own_in_every_format) {
+  const test::TemporaryFolder scratch;
+  const Matrix matrix(3);
+  const PointFactors points{{{"desk, left", 0, {Vec3(1, 2, 3), Vec3::UnitZ(), std::nullopt}}, {"wall", 7, {Vec3(0, 0, 1), Vec3::UnitX(), std::nullopt}}},
+                            [](Index s, std::span<double> F, std::span<double> error) {
+                              for (std::size_t j = 0; j < F.size(); ++j) {
+                                F[j] = s == 0 ? 0 : 0.25 * static_cast<double>(j);
+                                error[j] = s == 0 && j < 2 ? 0 : 0.5;
+                              }
+                            }};
+  write_factors_npz(scratch / "F.npz", matrix.elements, matrix.rows(), points);
+  const auto arrays = arrays_of(test::read_file(scratch / "F.npz"));
+  std::vector<std::string> names;
+  for (const auto& [name, array] : arrays) names.push_back(name);
+  EXPECT_EQ((std::vector<std::string>{names.begin() + 8, names.end()}),
+            (std::vector<std::string>{"sensor_F.npy", "sensor_error.npy", "sensor_position.npy", "sensor_normal.npy", "sensor_row_sum.npy",
+                                      "sensor_row_error.npy", "sensor_index.npy", "sensor_name.npy"}));
+  EXPECT_TRUE(arrays[8].second.header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }"));
+  EXPECT_EQ(doubles(arrays[8].second.data), (std::vector<double>{0, 0, 0, 0, 0.25, 0.5}));
+  EXPECT_EQ(doubles(arrays[12].second.data), (std::vector<double>{0, 0.75}));
+  write_point_factors_mtx(scratch / "F.mtx", points, 3);
+  const std::string mtx = test::read_file(scratch / "F.mtx");
+  EXPECT_EQ(mtx.substr(mtx.find("\n2 3 ") + 1), "2 3                    2\n2 2 0.25\n2 3 0.5\n");
+  write_point_factors_csv(scratch / "F.csv", points, 3);
+  EXPECT_EQ(test::read_file(scratch / "F.csv"),
+            "sensor,index,j,F,error\n\"desk, left\",0,2,0,0.5\nwall,7,0,0,0.5\nwall,7,1,0.25,0.5\nwall,7,2,0.5,0.5\n");
+  const std::vector<std::string> group{"b", "a", "b"};
+  write_grouped_point_factors_csv(scratch / "G.csv", points, group);
+  EXPECT_EQ(test::read_file(scratch / "G.csv"), "sensor,index,to,F,error\n\"desk, left\",0,b,0,0.5\nwall,7,b,0.5,1\nwall,7,a,0.25,0.5\n");
+}
+
 TEST(FactorExport, a_full_disk_leaves_the_old_file_and_nothing_else) {
   const test::TemporaryFolder scratch;
   const Matrix matrix(40);
-  for (const auto& write : {write_factors_npz, write_factors_mtx, write_factors_csv}) {
+  const auto npz = [](const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows) {
+    write_factors_npz(file, elements, rows);
+  };
+  using Write = std::function<void(const std::filesystem::path&, const FactorElements&, const FactorRows&)>;
+  for (const Write& write : {Write(npz), Write(write_factors_mtx), Write(write_factors_csv)}) {
     scratch.write("F", "old");
     std::string message;
     {

@@ -53,7 +53,7 @@ struct Solved {
     settings.quadrature_tolerance = effort.tolerance;
     settings.visibility_rays = effort.visibility_rays;
     settings.intersector = effort.intersector;
-    settings.restore_closure = restore_closure;
+    if (restore_closure) settings.closure = "scaling";
     settings.stopping.tolerance = 1e-13;
     core::LocalRun run;
     return fem::solve_radiosity(scene, settings, run.get());

@@ -1,0 +1,73 @@
+#include "fem/method_trial.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/random.h"
+
+namespace interflect::fem {
+
+namespace {
+
+class Discard final : public ExchangeSink {
+ public:
+  void add(Index, Index, const ExchangeEntry&) override {}
+};
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Random blocks of rows and columns.
+double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
+  constexpr Index blocks = 24;
+  const auto n = static_cast<Index>(patches.size());
+  const Index count = std::clamp<Index>(n / 16, 1, 48), room = n - count + 1;
+  core::RandomNumbers random(core::derived_seed(run.seed, "forecast"), 0, 0);
+  Discard sink;
+  double pairs = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (Index k = 0; k < blocks; ++k) {
+    auto row = static_cast<Index>(random.next() * static_cast<double>(room)),
+         column = static_cast<Index>(random.next() * static_cast<double>(room));
+    if (row > column) std::swap(row, column);
+    const PairCounts c = method.exchange({patches, row, count}, {patches, column, count}, sink, run);
+    pairs += static_cast<double>(c.facing_away + c.clear + c.sampled + c.subtracted);
+  }
+  return since(start) / std::max(pairs, 1.0);
+}
+
+/// A few random rows: each is worth half as many pairs as it has entries.
+double by_rows(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
+  const auto n = static_cast<Index>(patches.size());
+  const int rows = static_cast<int>(std::clamp<Index>(n / 16, 1, 8));
+  core::RandomNumbers random(core::derived_seed(run.seed, "forecast"), 0, 0);
+  Discard sink;
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < rows; ++k) {
+    const auto row = static_cast<Index>(random.next() * static_cast<double>(n));
+    method.exchange({patches, row, 1}, {patches, 0, n}, sink, run);
+  }
+  return since(start) / (0.5 * rows * static_cast<double>(n));
+}
+
+}  // namespace
+
+double seconds_per_pair(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
+  using Granularity = FormFactorMethod::Granularity;
+  if (method.granularity() == Granularity::pair) return by_blocks(method, patches, run);
+  if (method.granularity() == Granularity::row) return by_rows(method, patches, run);
+  const auto n = static_cast<double>(patches.size());
+  return method.trial(run) / (0.5 * n * n);
+}
+
+double seconds_per_point(const PointViewFactors& factors, std::span<const measure::PointIrradiance> points) {
+  if (points.empty()) return 0;
+  const std::size_t tried = std::min<std::size_t>(points.size(), 4);
+  std::vector<double> F(static_cast<std::size_t>(factors.elements())), error(F.size());
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t k = 0; k < tried; ++k) factors(points[k * points.size() / tried], F, error);
+  return since(start) / static_cast<double>(tried);
+}
+
+}  // namespace interflect::fem

@@ -1,0 +1,117 @@
+#include "fem/radiosity_operator.h"
+
+#include <algorithm>
+
+#include "core/estimate.h"
+#include "fem/assembly.h"
+#include "fem/operator/dense_symmetric.h"
+#include "fem/operator/sparse_symmetric.h"
+#include "fem/row_errors.h"
+
+namespace interflect::fem {
+namespace {
+
+std::vector<double> areas_of(std::span<const scene::SurfacePatch> patches) {
+  std::vector<double> areas;
+  for (const scene::SurfacePatch& patch : patches) areas.push_back(patch.area);
+  return areas;
+}
+
+/// What a source of entries says beside them.
+struct Filled {
+  PairCounts pairs;
+  std::vector<double> row_errors;  ///< e_a of row_errors.h; empty: not counted
+  bool met = true;
+};
+
+/// All entries into a sink, from wherever settings say.
+class Source {
+ public:
+  Source(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
+         const RadiositySettings& settings, Run& run)
+      : scene_(scene), patches_(patches), rays_(rays), settings_(settings), run_(run) {}
+
+  Filled fill(ExchangeSink& sink) const {
+    if (settings_.row_tolerance > 0 && !settings_.stored_factors) return to_tolerance(sink);
+    if (settings_.closure == "none" && !settings_.stored_factors) return {everything(sink), {}, true};
+    const std::vector<double> areas = areas_of(patches_);
+    RowErrors errors(sink, areas);
+    const PairCounts pairs = everything(errors);
+    Filled filled{pairs, errors.all(), true};
+    if (settings_.row_tolerance > 0)
+      filled.met = *std::max_element(filled.row_errors.begin(), filled.row_errors.end()) <= settings_.row_tolerance;
+    return filled;
+  }
+
+ private:
+  std::unique_ptr<FormFactorMethod> method(double relative_tolerance) const {
+    FormFactorContext context = form_factor_context(scene_, patches_, rays_, settings_, run_.seed);
+    context.tolerance = relative_tolerance;
+    auto method = make_form_factor_method(settings_.form_factors, context);
+    require_memory(scene_, static_cast<double>(patches_.size()), settings_, method->granularity());
+    return method;
+  }
+  Filled to_tolerance(ExchangeSink& sink) const {
+    const auto make = [&](double relative) { return method(relative); };
+    const ToleranceReport report = assemble_to_tolerance(make, settings_.row_tolerance, patches_, sink, run_);
+    return {report.pairs, report.row_errors, report.met};
+  }
+  PairCounts everything(ExchangeSink& sink) const {
+    if (!settings_.stored_factors) return assemble(*method(settings_.quadrature_tolerance), patches_, sink, run_);
+    settings_.stored_factors(scene_, patches_, sink);
+    return {};
+  }
+
+  const scene::Scene& scene_;
+  std::span<const scene::SurfacePatch> patches_;
+  const raycast::RayCaster& rays_;
+  const RadiositySettings& settings_;
+  Run& run_;
+};
+
+/// What is left of rows' errors without 1.96 standard errors of each entry.
+std::vector<double> without_noise(std::vector<double> row_errors, const SymmetricOperator& K, const Run& run) {
+  if (!K.has_errors()) return row_errors;
+  const solvers::ColumnMatrix noise = K.sums_by_row(run, 1, [](const StoredPair& p, solvers::ColumnMatrix& sums) {
+    sums(p.a, 0) += p.standard_error;
+    if (p.a != p.b) sums(p.b, 0) += p.standard_error;
+  });
+  for (std::size_t a = 0; a < row_errors.size(); ++a)
+    row_errors[a] = std::max(0.0, row_errors[a] - normal_95 * noise(static_cast<Index>(a), 0) / K.gram()[a]);
+  return row_errors;
+}
+
+}  // namespace
+
+FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                      const raycast::RayCaster& rays, const RadiositySettings& settings,
+                                      std::uint64_t seed) {
+  FormFactorContext context{scene, patches, rays, seed, settings.quadrature_tolerance, settings.visibility_rays};
+  context.resolution = settings.resolution;
+  context.samples = settings.samples;
+  return context;
+}
+
+RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                    const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run) {
+  const Source source(scene, patches, rays, settings, run);
+  RadiosityOperator out;
+  Filled filled;
+  if (settings.drop_below > 0) {
+    SparseAssembly assembly(areas_of(patches), settings.drop_below);
+    filled = source.fill(assembly);
+    out.K = assembly.packed(run);
+  } else {
+    auto K = std::make_unique<DenseSymmetric>(areas_of(patches));
+    filled = source.fill(*K);
+    out.K = std::move(K);
+  }
+  out.pairs = filled.pairs;
+  out.tolerance_met = filled.met;
+  if (filled.row_errors.empty()) return out;
+  out.largest_row_error = *std::max_element(filled.row_errors.begin(), filled.row_errors.end());
+  out.row_bound = without_noise(std::move(filled.row_errors), *out.K, run);
+  return out;
+}
+
+}  // namespace interflect::fem

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fem/operator/symmetric_operator.h"
+#include "fem/radiosity.h"
+
+namespace interflect::fem {
+
+/// K of a scene's elements as settings ask for it, and what is known of it.
+struct RadiosityOperator {
+  std::unique_ptr<SymmetricOperator> K;
+  PairCounts pairs;
+  /// sum_b bound_ab / A_a of what was not sampled; empty unless `row_tolerance`, `closure` or stored factors need it.
+  std::vector<double> row_bound;
+  double largest_row_error = 0;  ///< max_a sum_b (bound_ab + 1.96 standard_error_ab) / A_a; 0 where `row_bound` is empty
+  bool tolerance_met = true;     ///< `row_tolerance`, where there is one
+};
+
+/// What a method is made for, of those settings.
+FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                      const raycast::RayCaster& rays, const RadiositySettings& settings,
+                                      std::uint64_t seed);
+
+/// Dense, or sparse where `drop_below` says so; by the method, until rows meet their tolerance if one is asked for, or
+/// from `stored_factors`.
+/// @throws core::InputError  unknown method, or one that needs more memory than `max_memory` on the way
+/// @throws core::Interrupted
+RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                    const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run);
+
+}  // namespace interflect::fem
