@@ -82,7 +82,8 @@ class WholeSink final : public ExchangeSink {
 
 class TiledAssembly final : public RowAssembly {
  public:
-  TiledAssembly(std::span<const scene::SurfacePatch> patches, double tolerance, TileStore& store, Run& run, std::span<const CoveredPair> covered)
+  TiledAssembly(std::span<const scene::SurfacePatch> patches, double tolerance, TileStore& store, Run& run,
+                std::span<const CoveredPair> covered)
       : patches_(patches),
         tolerance_(tolerance),
         store_(store),
@@ -96,7 +97,8 @@ class TiledAssembly final : public RowAssembly {
     for (const Tile& tile : tiles_)
       if (!store_.is_done(tile.I, tile.J)) missing.push_back(tile);
     const auto pairs = [&](const Tile& tile) {
-      return std::max<Index>(1, tile.I == tile.J ? tile.rows.count * (tile.rows.count - 1) / 2 : tile.rows.count * tile.columns.count);
+      return std::max<Index>(
+          1, tile.I == tile.J ? tile.rows.count * (tile.rows.count - 1) / 2 : tile.rows.count * tile.columns.count);
     };
     for_tiles("form factors", missing, pairs, [&](const Tile& tile) {
       TileSink sink(tile);
@@ -126,11 +128,17 @@ class TiledAssembly final : public RowAssembly {
       const TileSink before = sink;
       const auto errs = [&](Index of, Index a, Index b) { return before.error_at(a, b) > negligible(of); };
       for (const Index a : held(tile.rows))
-        for_runs(tile.columns, [&](Index b) { return errs(a, a, b); },
-                 [&](const Range& run) { count(method.exchange({patches_, a, 1}, block(run), sink, run_)); });
+        for_runs(
+            tile.columns, [&](Index b) { return errs(a, a, b); },
+            [&](const Range& run) {
+              count(method.exchange({patches_, a, 1}, block(run), sink, run_));
+            });
       for (const Index b : held(tile.columns))
-        for_runs(tile.rows, [&](Index a) { return errs(b, a, b); },
-                 [&](const Range& run) { count(method.exchange(block(run), {patches_, b, 1}, sink, run_)); });
+        for_runs(
+            tile.rows, [&](Index a) { return errs(b, a, b); },
+            [&](const Range& run) {
+              count(method.exchange(block(run), {patches_, b, 1}, sink, run_));
+            });
       store_.write(tile.I, tile.J, sink.K, sink.error);
     });
   }
@@ -161,7 +169,9 @@ class TiledAssembly final : public RowAssembly {
     return {patches_, range.first, std::clamp<Index>(known - range.first, 0, range.count)};
   }
   /// Of a row: all entries below it make up a quarter of what it may err [m²].
-  double negligible(Index a) const { return 0.25 * tolerance_ * patches_[static_cast<std::size_t>(a)].area / static_cast<double>(patches_.size()); }
+  double negligible(Index a) const {
+    return 0.25 * tolerance_ * patches_[static_cast<std::size_t>(a)].area / static_cast<double>(patches_.size());
+  }
   /// Runs of neighbours that are wanted.
   template <class Wanted, class Work>
   static void for_runs(const Range& range, const Wanted& wanted, const Work& work) {
@@ -216,8 +226,8 @@ class TiledAssembly final : public RowAssembly {
 
 }  // namespace
 
-ToleranceReport assemble_tiles(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches, TileStore& store,
-                               Run& run, std::span<const CoveredPair> covered) {
+ToleranceReport assemble_tiles(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches,
+                               TileStore& store, Run& run, std::span<const CoveredPair> covered) {
   TiledAssembly assembly(patches, tolerance, store, run, covered);
   return until_rows_meet(tolerance, make, assembly);
 }

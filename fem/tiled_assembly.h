@@ -17,18 +17,20 @@ class TileStore {
   virtual void read(Index I, Index J, std::span<double> K, std::span<double> error) const = 0;
 };
 
-/// Two elements behind all others that see each other and nothing else, and what they exchange: a mask and what it covers.
+/// Two elements behind all others that see each other and nothing else, and what they exchange: a mask and what it
+/// covers.
 struct CoveredPair {
   Index a, b;  ///< a < b
   double K;    ///< [m²]
 };
 
-/// `assemble_to_tolerance` into a store; tiles that are done are left as they are, unless rows in them do not meet the tolerance: then the
-/// entries of those rows are done again that err by more than a quarter of the tolerance over the number of elements.  Errors
-/// are bound + 1.96 standard errors.  Methods that go by rows or all at once need 12 N² bytes on the way.
+/// `assemble_to_tolerance` into a store; tiles that are done are left as they are, unless rows in them do not meet the
+/// tolerance: then the entries of those rows are done again that err by more than a quarter of the tolerance over the
+/// number of elements.  Errors are bound + 1.96 standard errors.  Methods that go by rows or all at once need 12 N²
+/// bytes on the way.
 /// @param covered  pairs that the method is not asked about: the store's last elements, behind the patches, two a pair
 /// @throws core::Interrupted  with whole tiles written
-ToleranceReport assemble_tiles(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches, TileStore& store,
-                               Run& run, std::span<const CoveredPair> covered = {});
+ToleranceReport assemble_tiles(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches,
+                               TileStore& store, Run& run, std::span<const CoveredPair> covered = {});
 
 }  // namespace interflect::fem

@@ -58,7 +58,8 @@ void require_resolved(const scene::Surface& surface, std::span<const SurfacePatc
 std::vector<SurfacePatch> front_elements(const scene::Scene& scene, SurfaceId id, double max_edge) {
   const scene::Surface& surface = scene.surface(id);
   if (const auto grid = quad_grid(surface, max_edge)) return grid_elements(id, *grid);
-  if (surface.outline && !has_needle(*surface.outline)) return triangle_elements(id, geometry::triangulate_refined(*surface.outline, max_edge));
+  if (surface.outline && !has_needle(*surface.outline))
+    return triangle_elements(id, geometry::triangulate_refined(*surface.outline, max_edge));
   return triangle_elements(id, bisected(scene.facets_of(id), max_edge));
 }
 
@@ -71,7 +72,8 @@ std::vector<SurfacePatch> whole_front(const scene::Scene& scene, SurfaceId id) {
     return {make_patch(id, Side::front, surface.outline->outer)};
   std::vector<SurfacePatch> elements;
   for (const scene::Facet& facet : scene.facets_of(id))
-    if (facet.area > 0) elements.push_back(make_patch(id, Side::front, facet.corner));  // none beside a corner in mid-edge
+    if (facet.area > 0)
+      elements.push_back(make_patch(id, Side::front, facet.corner));  // none beside a corner in mid-edge
   return elements;
 }
 

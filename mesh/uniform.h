@@ -7,9 +7,11 @@ namespace interflect::mesh {
 /// Every surface cut until no edge is longer than `max_edge` [m] (save in needles that rounding forbids to cut:
 /// bisection.h), into elements that can be cut into four.
 ///
-/// A surface that is one planar quad becomes a grid of quads; another planar polygon is meshed by Delaunay refinement; facets of
-/// mesh files, and of polygons with a corner below a degree, are bisected at their longest edge, with their neighbours, so that the surface stays conforming [Rivara 1984].
-/// @throws core::InputError  in one line where max_edge is no positive length, where it makes more than 2^31 elements, and
+/// A surface that is one planar quad becomes a grid of quads; another planar polygon is meshed by Delaunay refinement;
+/// facets of mesh files, and of polygons with a corner below a degree, are bisected at their longest edge, with their
+/// neighbours, so that the surface stays conforming [Rivara 1984].
+/// @throws core::InputError  in one line where max_edge is no positive length, where it makes more than 2^31 elements,
+/// and
 ///                           where an element is too thin for its coordinates, naming its surface and place
 ElementMesh uniform(const scene::Scene& scene, double max_edge);
 

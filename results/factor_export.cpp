@@ -61,7 +61,8 @@ struct Groups {
 struct RowSums {
   std::vector<double> F, error;
 };
-RowSums add_matrix(NpzFile& npz, const std::string& prefix, std::size_t height, std::size_t width, const FactorRows& rows) {
+RowSums add_matrix(NpzFile& npz, const std::string& prefix, std::size_t height, std::size_t width,
+                   const FactorRows& rows) {
   Row row(width);
   RowSums sums;
   npz.begin(prefix + "F", "<f8", sizeof(double), {height, width});
@@ -103,7 +104,8 @@ void add_points(NpzFile& npz, const PointFactors& of, std::size_t elements) {
 }
 
 /// A matrix in Matrix Market's coordinates.
-void write_mtx(const std::filesystem::path& file, const char* meaning, std::size_t height, std::size_t width, const FactorRows& rows) {
+void write_mtx(const std::filesystem::path& file, const char* meaning, std::size_t height, std::size_t width,
+               const FactorRows& rows) {
   AtomicFile out(file);
   std::string text = std::string("%%MatrixMarket matrix coordinate real general\n% ") + meaning + "\n";
   const std::size_t sizes_at = text.size();
@@ -131,8 +133,8 @@ void write_mtx(const std::filesystem::path& file, const char* meaning, std::size
 
 /// A table of what is not 0: what a line says of its row, then of its column, then both numbers.
 void write_table(const std::filesystem::path& file, const std::string& heading, std::size_t height, std::size_t width,
-                 const std::function<std::string(std::size_t)>& row_name, const std::function<std::string(std::size_t)>& column_name,
-                 const FactorRows& rows) {
+                 const std::function<std::string(std::size_t)>& row_name,
+                 const std::function<std::string(std::size_t)>& column_name, const FactorRows& rows) {
   AtomicFile out(file);
   std::string text = heading + "\n";
   Row row(width);
@@ -192,8 +194,8 @@ void write_factors_mtx(const std::filesystem::path& file, const FactorElements& 
 }
 
 void write_point_factors_mtx(const std::filesystem::path& file, const PointFactors& points, Index elements) {
-  write_mtx(file, "point view factors: entry s j times the radiosity of j is what j sends to sensor point s", points.points.size(),
-            static_cast<std::size_t>(elements), points.rows);
+  write_mtx(file, "point view factors: entry s j times the radiosity of j is what j sends to sensor point s",
+            points.points.size(), static_cast<std::size_t>(elements), points.rows);
 }
 
 void write_factors_csv(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows) {
@@ -203,14 +205,17 @@ void write_factors_csv(const std::filesystem::path& file, const FactorElements& 
 
 void write_point_factors_csv(const std::filesystem::path& file, const PointFactors& points, Index elements) {
   const std::vector<std::string> names = point_names(points.points);
-  write_table(file, "sensor,index,j,F,error", names.size(), static_cast<std::size_t>(elements), [&](std::size_t s) { return names[s]; }, number,
-              points.rows);
+  write_table(
+      file, "sensor,index,j,F,error", names.size(), static_cast<std::size_t>(elements),
+      [&](std::size_t s) { return names[s]; }, number, points.rows);
 }
 
-void write_grouped_point_factors_csv(const std::filesystem::path& file, const PointFactors& points, std::span<const std::string> group) {
+void write_grouped_point_factors_csv(const std::filesystem::path& file, const PointFactors& points,
+                                     std::span<const std::string> group) {
   const Groups groups(group);
   const std::vector<std::string> names = point_names(points.points), to = quoted(groups.names);
-  const auto summed = [&, row = std::make_shared<Row>(group.size())](Index s, std::span<double> F, std::span<double> error) {
+  const auto summed = [&, row = std::make_shared<Row>(group.size())](Index s, std::span<double> F,
+                                                                     std::span<double> error) {
     points.rows(s, row->F, row->error);
     std::fill(F.begin(), F.end(), 0.0);
     std::fill(error.begin(), error.end(), 0.0);
@@ -219,8 +224,9 @@ void write_grouped_point_factors_csv(const std::filesystem::path& file, const Po
       error[groups.of[j]] += row->error[j];
     }
   };
-  write_table(file, "sensor,index,to,F,error", names.size(), to.size(), [&](std::size_t s) { return names[s]; },
-              [&](std::size_t g) { return to[g]; }, summed);
+  write_table(
+      file, "sensor,index,to,F,error", names.size(), to.size(), [&](std::size_t s) { return names[s]; },
+      [&](std::size_t g) { return to[g]; }, summed);
 }
 
 void write_grouped_factors_csv(const std::filesystem::path& file, const FactorElements& elements,
@@ -228,7 +234,8 @@ void write_grouped_factors_csv(const std::filesystem::path& file, const FactorEl
   if (group.size() != elements.area.size()) throw core::PreconditionError("a group per element expected");
   const Groups groups(group);
   const std::vector<std::string> names = quoted(groups.names);
-  const auto summed = [&, row = std::make_shared<Row>(elements)](Index g, std::span<double> F, std::span<double> error) {
+  const auto summed = [&, row = std::make_shared<Row>(elements)](Index g, std::span<double> F,
+                                                                 std::span<double> error) {
     std::fill(F.begin(), F.end(), 0.0);
     std::fill(error.begin(), error.end(), 0.0);
     double area = 0;

@@ -11,9 +11,9 @@
 /// memory.  All are written as AtomicFile does, and throw core::InputError as it does.
 namespace interflect::results {
 
-/// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n); and of S points sensor_F, sensor_error
-/// (S x n), sensor_row_sum, sensor_row_error, sensor_name, sensor_index (S), sensor_position, sensor_normal (S x 3).  Asks for the rows
-/// twice.
+/// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n); and of S points sensor_F,
+/// sensor_error (S x n), sensor_row_sum, sensor_row_error, sensor_name, sensor_index (S), sensor_position,
+/// sensor_normal (S x 3).  Asks for the rows twice.
 void write_factors_npz(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows,
                        const PointFactors& points = {});
 
@@ -35,6 +35,7 @@ void write_grouped_factors_csv(const std::filesystem::path& file, const FactorEl
 void write_point_factors_csv(const std::filesystem::path& file, const PointFactors& points, Index elements);
 
 /// `sensor,index,to,F,error`: sums over the elements of each group.
-void write_grouped_point_factors_csv(const std::filesystem::path& file, const PointFactors& points, std::span<const std::string> group);
+void write_grouped_point_factors_csv(const std::filesystem::path& file, const PointFactors& points,
+                                     std::span<const std::string> group);
 
 }  // namespace interflect::results

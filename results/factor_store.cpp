@@ -54,13 +54,17 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
 }
 
 /// @param padded  elements, up to whole tiles
-Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded, std::span<const measure::SensorPoint> points) {
+Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded,
+                        std::span<const measure::SensorPoint> points) {
   std::size_t width = 1, point_width = 1;
   for (const std::string& name : elements.name) width = std::max(width, name.size());
   for (const measure::SensorPoint& point : points) point_width = std::max(point_width, point.sensor.size());
   constexpr std::uint64_t structure = 1 << 20, lists = 9 * sizeof(double);
-  const std::uint64_t at_once = structure + elements.area.size() * (lists + width) + points.size() * (lists + point_width);
-  return {at_once + padded * padded * (sizeof(double) + sizeof(float)) + point_group::bytes(points.size(), elements.area.size()), at_once};
+  const std::uint64_t at_once =
+      structure + elements.area.size() * (lists + width) + points.size() * (lists + point_width);
+  return {at_once + padded * padded * (sizeof(double) + sizeof(float)) +
+              point_group::bytes(points.size(), elements.area.size()),
+          at_once};
 }
 
 std::vector<double> read_doubles(const Hdf5File& file, const std::string& name, std::uint64_t count) {
@@ -129,7 +133,8 @@ Hdf5File FactorStoreWriter::begin(const std::filesystem::path& file, const Facto
 }
 
 FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorElements& elements,
-                                     const FactorStoreKey& key, Index tile, std::span<const measure::SensorPoint> points)
+                                     const FactorStoreKey& key, Index tile,
+                                     std::span<const measure::SensorPoint> points)
     : file_(std::move(file)), partial_(partial_of(file_)), size_(elements.size()), area_(elements.area) {
   const std::size_t n = elements.area.size();
   if (elements.normal.size() != n || elements.centroid.size() != n || elements.name.size() != n || tile < 1)
@@ -150,7 +155,8 @@ FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorEle
   go_on(elements, key, points);
 }
 
-void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreKey& key, std::span<const measure::SensorPoint> points) {
+void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreKey& key,
+                              std::span<const measure::SensorPoint> points) {
   store_ = std::make_unique<Hdf5File>(Hdf5File::open(partial_, Hdf5File::Access::change));
   require_store(*store_);
   require_digest(*store_, store_->note("digest"), key.digest);
@@ -353,7 +359,9 @@ FactorRows FactorStore::rows() const {
 }
 
 PointFactors FactorStore::point_factors() const {
-  return {points_, [this](Index s, std::span<double> F, std::span<double> error) { point_group::read_row(store_, s, F, error); }};
+  return {points_, [this](Index s, std::span<double> F, std::span<double> error) {
+            point_group::read_row(store_, s, F, error);
+          }};
 }
 
 double begun_bytes(const std::filesystem::path& file) {
@@ -366,7 +374,8 @@ double factor_store_bytes(std::uint64_t elements, std::uint64_t points, std::uin
   const auto t = static_cast<double>(std::min(tile, elements)), n = static_cast<double>(elements);
   const double across = elements > 0 ? std::ceil(n / t) : 0;
   constexpr double per_pair = sizeof(double) + sizeof(float), lists = 9 * sizeof(double) + 65, structure = 1 << 20;
-  return 0.5 * per_pair * across * (across + 1) * t * t + lists * n + static_cast<double>(point_group::bytes(points, elements)) + structure;
+  return 0.5 * per_pair * across * (across + 1) * t * t + lists * n +
+         static_cast<double>(point_group::bytes(points, elements)) + structure;
 }
 
 }  // namespace interflect::results

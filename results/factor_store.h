@@ -32,7 +32,8 @@ class FactorStoreWriter {
   /// Begins a store, or goes on with FILE.partial.
   /// @param tile    elements along the side of a tile; one that goes on keeps the size that it was begun with
   /// @param points  whose view factors the store has as well, a row for each
-  /// @throws core::InputError  FILE.partial is of another geometry, of other settings or sensors, damaged, or open elsewhere; or
+  /// @throws core::InputError  FILE.partial is of another geometry, of other settings or sensors, damaged, or open
+  /// elsewhere; or
   ///                           no file can be written there
   FactorStoreWriter(std::filesystem::path file, const FactorElements& elements, const FactorStoreKey& key,
                     Index tile = 512, std::span<const measure::SensorPoint> points = {});
@@ -100,7 +101,9 @@ class FactorStore {
   /// Rows of F for the exports; they keep a tile's height of rows, and this store must outlive them.
   FactorRows rows() const;
 
-  const std::vector<measure::SensorPoint>& points() const { return points_; }  ///< mostly none; on which surface they lie is not kept
+  const std::vector<measure::SensorPoint>& points() const {
+    return points_;
+  }  ///< mostly none; on which surface they lie is not kept
   /// For the exports; this store must outlive them.
   PointFactors point_factors() const;
 

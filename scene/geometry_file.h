@@ -32,8 +32,8 @@ struct ExchangeMask {
   SurfaceId base;
   double area;       ///< [m²]
   double emittance;  ///< in (0, 1]
-  geometry::Ring ring;    ///< counter-clockwise seen from the base [m]
-  std::string material;   ///< as of surfaces with that emittance
+  geometry::Ring ring;   ///< counter-clockwise seen from the base [m]
+  std::string material;  ///< as of surfaces with that emittance
 };
 
 struct ExchangeScene {
@@ -42,8 +42,8 @@ struct ExchangeScene {
   std::vector<ExchangeMask> masks;
 };
 
-/// The masks alone: surface k is mask k, facing its base.  Such a scene is cut into elements as others are; what lies opposite to an element
-/// of it is the part of the base that it covers.
+/// The masks alone: surface k is mask k, facing its base.  Such a scene is cut into elements as others are; what lies
+/// opposite to an element of it is the part of the base that it covers.
 Scene scene_of_masks(const ExchangeScene& geometry);
 
 struct GeometryOptions {

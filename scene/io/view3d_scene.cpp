@@ -189,7 +189,8 @@ class View3dImport {
   void add_mask(std::size_t k, const std::optional<SurfaceId>& base) {
     if (!base) fail(k, core::format("covers all that is left of its base, surface %zu", surfaces_[k].base));
     const View3dSurface& s = surfaces_[k];
-    out_.masks.push_back({s.name, *base, area_of(s.ring), std::max(s.emittance, 1e-3), s.ring, material_name(std::max(s.emittance, 1e-3))});
+    out_.masks.push_back({s.name, *base, area_of(s.ring), std::max(s.emittance, 1e-3), s.ring,
+                          material_name(std::max(s.emittance, 1e-3))});
   }
 
   SceneBuilder& builder_;

@@ -7,6 +7,7 @@
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/quadrature.h"
 #include "geometry/convex_blocker.h"
+#include "tests/fem/direct_light.h"
 #include "tests/fem/rooms.h"
 #include "tests/support/shapes.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 using geometry::ConvexBlocker;
 using geometry::Ring;
+using test::direct_light;
+using test::DirectLight;
 using test::Room;
 
 Ring square(double half, double z, double x = 0, double y = 0) {
@@ -33,33 +36,15 @@ double seen_factor(const Vec3& x, const Ring& ring, const std::vector<ConvexBloc
          HiddenExchange(rounding).hidden_factor(x, Vec3::UnitZ(), inner, list);
 }
 
-struct DirectLight {
-  Vec3 x;
-  double unoccluded, occluded;
-};
-// docs/truths.md 2.9: source of half side .5 at z = 2, blocker of half side .5 at z = 1, coaxial.
-const std::vector<DirectLight> direct_light{{{0, 0, 0}, .073477634813, 0},
-                                            {{.5, 0, 0}, .066182613783, 0},
-                                            {{.6, 0, 0}, .063289108275, .007557182366},
-                                            {{.75, 0, 0}, .058406458357, .017821902089},
-                                            {{1, 0, 0}, .049521835726, .029443796377},
-                                            {{1.25, 0, 0}, .040681704379, .033623897844},
-                                            {{1.5, 0, 0}, .032663265537, .032663265537},
-                                            {{2, 0, 0}, .020278199912, .020278199912},
-                                            {{1, 1, 0}, .035321277345, .029028221206},
-                                            {{.75, .75, 0}, .047358289438, .024093099852},
-                                            {{1.25, .25, 0}, .039846191745, .032909077393},
-                                            {{1.4, 1.4, 0}, .020704801802, .020596516308}};
-
 TEST(Analytic, point_factors_past_a_blocker_are_exact_at_any_scale) {
   for (const double scale : {1e-6, 1.0, 1e6})
     for (const DirectLight& point : direct_light) {
       Ring source = square(.5, 2), blocker = square(.5, 1);
       for (Ring* ring : {&source, &blocker})
         for (Vec3& x : *ring) x *= scale;
-      EXPECT_NEAR(seen_factor(scale * point.x, source, {}), point.unoccluded, 6e-13);
+      EXPECT_NEAR(seen_factor(scale * point.x, source, {}), point.open, 6e-13);
       EXPECT_NEAR(seen_factor(scale * point.x, source, {ConvexBlocker::polygon(blocker)}, 1e-12 * scale),
-                  point.occluded, 6e-13);
+                  point.blocked, 6e-13);
     }
 }
 
@@ -71,13 +56,13 @@ TEST(Analytic, point_factors_past_overlapping_blockers_are_those_past_their_unio
                             ConvexBlocker::polygon(Ring{{-.1, -.5, 1}, {-.1, .5, 1}, {.5, .5, 1}, {.5, -.5, 1}}),
                             ConvexBlocker::polygon(Ring{{-.5, -.5, 1}, {-.5, .5, 1}, {.5, -.5, 1}}),
                             ConvexBlocker::polygon(square(.5, 1))};
-    EXPECT_NEAR(seen_factor(point.x, square(.5, 2), parts), point.occluded, 6e-13);
+    EXPECT_NEAR(seen_factor(point.x, square(.5, 2), parts), point.blocked, 6e-13);
     // The blocker's image halfway to the point: in its very shadow.
     Ring image;
     for (const Vec3& corner : square(.5, 1)) image.push_back(0.5 * (corner + point.x));
     EXPECT_NEAR(
         seen_factor(point.x, square(.5, 2), {ConvexBlocker::polygon(image), ConvexBlocker::polygon(square(.5, 1))}),
-        point.occluded, 6e-13);
+        point.blocked, 6e-13);
   }
 }
 

@@ -69,15 +69,7 @@ TEST(FarFromOrigin, clusters_are_those_of_the_same_room_at_the_origin_and_keep_t
 // What is proved away is away: nothing is missing from the row sums of a closed room.
 TEST(FarFromOrigin, form_factors_of_a_closed_room_sum_to_one) {
   const auto patches = turned_corridor(0.5, grid_coordinates);
-  const PairIntegrator integrate(patches, 1e-5);
-  std::vector<double> sum(patches.size());
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const double K = integrate(Index(i), Index(j)).value;
-      sum[i] += K / patches[i].area;
-      sum[j] += K / patches[j].area;
-    }
-  for (const double row : sum) EXPECT_NEAR(row, 1, 1e-5);
+  for (const double row : test::unoccluded_row_sums(patches, 1e-5)) EXPECT_NEAR(row, 1, 1e-5);
 }
 
 // The walls that meet at an edge are rounded differently from the elements that do: neither blocks anything.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/fem/direct_light.h"
 #include "tests/fem/rooms.h"
 
 namespace interflect::fem {
@@ -34,26 +35,10 @@ struct Shadow {
   std::unique_ptr<raycast::RayCaster> rays;
 };
 
-struct Row {
-  double x, y, open, blocked;
-};
-const std::vector<Row> table = {{0, 0, .073477634813, 0},
-                                {.5, 0, .066182613783, 0},
-                                {.6, 0, .063289108275, .007557182366},
-                                {.75, 0, .058406458357, .017821902089},
-                                {1, 0, .049521835726, .029443796377},
-                                {1.25, 0, .040681704379, .033623897844},
-                                {1.5, 0, .032663265537, .032663265537},
-                                {2, 0, .020278199912, .020278199912},
-                                {1, 1, .035321277345, .029028221206},
-                                {.75, .75, .047358289438, .024093099852},
-                                {1.25, .25, .039846191745, .032909077393},
-                                {1.4, 1.4, .020704801802, .020596516308}};
-
 TEST(Gather, of_an_open_source_is_exact) {
   const Shadow open(2, false);
-  for (const Row& row : table) {
-    const Gathered g = open.at({row.x, row.y, 0}, 1);
+  for (const test::DirectLight& row : test::direct_light) {
+    const Gathered g = open.at(row.x, 1);
     EXPECT_NEAR(total(g), row.open, 1e-12);
     EXPECT_EQ(g.rays, 0u);
   }
@@ -64,10 +49,10 @@ TEST(Gather, of_a_blocked_source_agrees_with_the_exact_penumbra) {
   for (int n : {1, 3}) {
     const Shadow shadow(n, true);
     std::uint64_t key = 0;
-    for (const Row& row : table) {
-      const Gathered g = shadow.at({row.x, row.y, 0}, ++key);
+    for (const test::DirectLight& row : test::direct_light) {
+      const Gathered g = shadow.at(row.x, ++key);
       const Spectrum noise = irradiance_noise(g, std::vector(shadow.room.patches.size(), Spectrum(1.0)));
-      EXPECT_NEAR(total(g), row.blocked, 4.7 * noise[0] + 1e-12) << row.x << " " << row.y;
+      EXPECT_NEAR(total(g), row.blocked, 4.7 * noise[0] + 1e-12) << row.x.transpose();
       EXPECT_LE(noise[0], 0.02 * row.open);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "tests/fem/direct_light.h"
 
 namespace interflect::fem {
 namespace {
@@ -32,10 +33,8 @@ TEST(PointToPolygon, agrees_with_the_closed_form_of_a_rectangle_above_its_corner
 // docs/truths.md 2.9: a square of half side .5 two metres above, from points beside its axis.
 TEST(PointToPolygon, agrees_with_the_table_of_direct_light) {
   const Ring ring = {{-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2}};
-  const std::vector<std::pair<Vec3, double>> table = {{{0, 0, 0}, .073477634813}, {{.5, 0, 0}, .066182613783},
-                                                      {{1, 0, 0}, .049521835726}, {{2, 0, 0}, .020278199912},
-                                                      {{1, 1, 0}, .035321277345}, {{1.4, 1.4, 0}, .020704801802}};
-  for (const auto& [x, F] : table) EXPECT_NEAR(point_to_polygon(x, Vec3::UnitZ(), ring), F, 1e-12);
+  for (const test::DirectLight& light : test::direct_light)
+    EXPECT_NEAR(point_to_polygon(light.x, Vec3::UnitZ(), ring), light.open, 1e-12);
 }
 
 TEST(PointToPolygon, is_additive_over_a_partition_across_the_horizon) {

@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "fem/form_factor/point_to_polygon.h"
+#include "tests/fem/direct_light.h"
 #include "tests/fem/rooms.h"
 
 namespace interflect::fem {
@@ -27,23 +28,6 @@ Seen seen_from(const PointViewFactors& factors, const measure::PointIrradiance& 
 }
 measure::PointIrradiance point(const Vec3& x, const Vec3& n = Vec3::UnitZ()) { return {x, n, std::nullopt}; }
 
-struct Row {
-  double x, y, open, blocked;
-};
-/// docs/truths.md 2.9: a square source two metres up, a square blocker of the same size one metre up.
-const std::vector<Row> table = {{0, 0, .073477634813, 0},
-                                {.5, 0, .066182613783, 0},
-                                {.6, 0, .063289108275, .007557182366},
-                                {.75, 0, .058406458357, .017821902089},
-                                {1, 0, .049521835726, .029443796377},
-                                {1.25, 0, .040681704379, .033623897844},
-                                {1.5, 0, .032663265537, .032663265537},
-                                {2, 0, .020278199912, .020278199912},
-                                {1, 1, .035321277345, .029028221206},
-                                {.75, .75, .047358289438, .024093099852},
-                                {1.25, .25, .039846191745, .032909077393},
-                                {1.4, 1.4, .020704801802, .020596516308}};
-
 // Whole and in 3 x 3 elements, at three scales: to the 12 digits of the table, within errors that say as much.
 TEST(PointViewFactors, under_a_blocker_are_the_exact_penumbra) {
   for (const double scale : {1e-6, 1.0, 1e6})
@@ -53,9 +37,9 @@ TEST(PointViewFactors, under_a_blocker_are_the_exact_penumbra) {
       room.screen(scale * Vec3(-.5, -.5, 1), scale * Vec3(1, 0, 0), scale * Vec3(0, 1, 0));
       const auto scene = room.finish();
       const PointViewFactors factors(scene, room.patches);
-      for (const Row& row : table) {
-        const Seen seen = seen_from(factors, point(scale * Vec3(row.x, row.y, 0)));
-        EXPECT_NEAR(seen.total(), row.blocked, 1e-12) << row.x << ' ' << row.y << " at scale " << scale;
+      for (const test::DirectLight& row : test::direct_light) {
+        const Seen seen = seen_from(factors, point(scale * row.x));
+        EXPECT_NEAR(seen.total(), row.blocked, 1e-12) << row.x.transpose() << " at scale " << scale;
         EXPECT_LT(seen.total_error(), 2e-14);
       }
     }

@@ -4,6 +4,7 @@
 
 #include "core/run.h"
 #include "fem/form_factor/method.h"
+#include "fem/form_factor/pair_integral.h"
 #include "fem/radiosity.h"
 #include "raycast/ray_caster.h"
 #include "scene/builder.h"
@@ -140,6 +141,19 @@ inline double mean_over(const RadiositySolution& s, std::span<const Spectrum> va
       area += s.mesh.patches()[i].area;
     }
   return sum / area;
+}
+
+/// sum_j F_ij of elements between which nothing lies.
+inline std::vector<double> unoccluded_row_sums(const std::vector<scene::SurfacePatch>& patches, double tolerance) {
+  const PairIntegrator integrate(patches, tolerance);
+  std::vector<double> sum(patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double K = integrate(Index(i), Index(j)).value;
+      sum[i] += K / patches[i].area;
+      sum[j] += K / patches[j].area;
+    }
+  return sum;
 }
 
 }  // namespace interflect::fem::test

@@ -208,7 +208,8 @@ TEST(FactorExport, groups_are_sums_weighted_by_area_with_quoted_names) {
 TEST(FactorExport, points_are_rows_of_their_own_in_every_format) {
   const test::TemporaryFolder scratch;
   const Matrix matrix(3);
-  const PointFactors points{{{"desk, left", 0, {Vec3(1, 2, 3), Vec3::UnitZ(), std::nullopt}}, {"wall", 7, {Vec3(0, 0, 1), Vec3::UnitX(), std::nullopt}}},
+  const PointFactors points{{{"desk, left", 0, {Vec3(1, 2, 3), Vec3::UnitZ(), std::nullopt}},
+                             {"wall", 7, {Vec3(0, 0, 1), Vec3::UnitX(), std::nullopt}}},
                             [](Index s, std::span<double> F, std::span<double> error) {
                               for (std::size_t j = 0; j < F.size(); ++j) {
                                 F[j] = s == 0 ? 0 : 0.25 * static_cast<double>(j);
@@ -219,9 +220,10 @@ TEST(FactorExport, points_are_rows_of_their_own_in_every_format) {
   const auto arrays = arrays_of(test::read_file(scratch / "F.npz"));
   std::vector<std::string> names;
   for (const auto& [name, array] : arrays) names.push_back(name);
-  EXPECT_EQ((std::vector<std::string>{names.begin() + 8, names.end()}),
-            (std::vector<std::string>{"sensor_F.npy", "sensor_error.npy", "sensor_position.npy", "sensor_normal.npy", "sensor_row_sum.npy",
-                                      "sensor_row_error.npy", "sensor_index.npy", "sensor_name.npy"}));
+  EXPECT_EQ(
+      (std::vector<std::string>{names.begin() + 8, names.end()}),
+      (std::vector<std::string>{"sensor_F.npy", "sensor_error.npy", "sensor_position.npy", "sensor_normal.npy",
+                                "sensor_row_sum.npy", "sensor_row_error.npy", "sensor_index.npy", "sensor_name.npy"}));
   EXPECT_TRUE(arrays[8].second.header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }"));
   EXPECT_EQ(doubles(arrays[8].second.data), (std::vector<double>{0, 0, 0, 0, 0.25, 0.5}));
   EXPECT_EQ(doubles(arrays[12].second.data), (std::vector<double>{0, 0.75}));
@@ -233,7 +235,8 @@ TEST(FactorExport, points_are_rows_of_their_own_in_every_format) {
             "sensor,index,j,F,error\n\"desk, left\",0,2,0,0.5\nwall,7,0,0,0.5\nwall,7,1,0.25,0.5\nwall,7,2,0.5,0.5\n");
   const std::vector<std::string> group{"b", "a", "b"};
   write_grouped_point_factors_csv(scratch / "G.csv", points, group);
-  EXPECT_EQ(test::read_file(scratch / "G.csv"), "sensor,index,to,F,error\n\"desk, left\",0,b,0,0.5\nwall,7,b,0.5,1\nwall,7,a,0.25,0.5\n");
+  EXPECT_EQ(test::read_file(scratch / "G.csv"),
+            "sensor,index,to,F,error\n\"desk, left\",0,b,0,0.5\nwall,7,b,0.5,1\nwall,7,a,0.25,0.5\n");
 }
 
 TEST(FactorExport, a_full_disk_leaves_the_old_file_and_nothing_else) {
