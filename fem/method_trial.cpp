@@ -18,16 +18,19 @@ double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Random blocks of rows and columns.
-double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
+constexpr double longest = 2;  // [s] after which no more is tried
+
+/// Random blocks of so many rows and columns, while there is time left.
+double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, Index count,
+                 double time_left, const Run& run) {
   constexpr Index blocks = 24;
-  const auto n = static_cast<Index>(patches.size());
-  const Index count = std::clamp<Index>(n / 16, 1, 48), room = n - count + 1;
+  const Index room = static_cast<Index>(patches.size()) - count + 1;
   core::RandomNumbers random(core::derived_seed(run.seed, "forecast"), 0, 0);
   Discard sink;
   double pairs = 0;
   const auto start = std::chrono::steady_clock::now();
-  for (Index k = 0; k < blocks; ++k) {
+  for (Index k = 0; k < blocks && since(start) <= time_left; ++k) {
+    run.throw_if_stopped("forecast");
     auto row = static_cast<Index>(random.next() * static_cast<double>(room)),
          column = static_cast<Index>(random.next() * static_cast<double>(room));
     if (row > column) std::swap(row, column);
@@ -37,14 +40,26 @@ double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfaceP
   return since(start) / std::max(pairs, 1.0);
 }
 
+/// Blocks as large as time allows: in large ones pairs share their proofs, and some pairs take a second each.
+double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
+  const Index most = std::clamp<Index>(static_cast<Index>(patches.size()) / 16, 1, 48);
+  const auto start = std::chrono::steady_clock::now();
+  double seconds = 0;
+  for (Index count = std::min<Index>(most, 3); count <= most && since(start) <= 0.25 * longest; count *= 4)
+    seconds = by_blocks(method, patches, count, longest - since(start), run);
+  return seconds;
+}
+
 /// A few random rows: each is worth half as many pairs as it has entries.
 double by_rows(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, const Run& run) {
   const auto n = static_cast<Index>(patches.size());
-  const int rows = static_cast<int>(std::clamp<Index>(n / 16, 1, 8));
+  const int most = static_cast<int>(std::clamp<Index>(n / 16, 1, 8));
   core::RandomNumbers random(core::derived_seed(run.seed, "forecast"), 0, 0);
   Discard sink;
   const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < rows; ++k) {
+  int rows = 0;
+  for (; rows < most && since(start) <= longest; ++rows) {
+    run.throw_if_stopped("forecast");
     const auto row = static_cast<Index>(random.next() * static_cast<double>(n));
     method.exchange({patches, row, 1}, {patches, 0, n}, sink, run);
   }

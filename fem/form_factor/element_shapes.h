@@ -55,6 +55,7 @@ class ElementShapes {
   explicit ElementShapes(std::span<const scene::SurfacePatch> patches);
 
   const ElementShape& operator[](Index element) const { return shapes_[static_cast<std::size_t>(element)]; }
+  Index size() const { return static_cast<Index>(shapes_.size()); }
   NodeArrays nodes(Index element, int level) const;
   const Vec3& origin() const { return origin_; }
   /// Distances from planes below this are rounding, near the elements that the planes are taken from [m].

@@ -5,7 +5,11 @@
 namespace interflect::fem {
 
 ExactOcclusion::ExactOcclusion(const ElementShapes& shapes, const Blockers& blockers, double tolerance)
-    : shapes_(shapes), blockers_(blockers), tolerance_(tolerance), hidden_(shapes.plane_tolerance()) {}
+    : shapes_(shapes),
+      blockers_(blockers),
+      tolerance_(tolerance),
+      least_of_row_(1.0 / (16.0 * static_cast<double>(shapes.size()))),
+      hidden_(shapes.plane_tolerance()) {}
 
 ExchangeEntry ExactOcclusion::operator()(const DoubtfulPair& pair, PairCounts& counts) {
   find_blockers(pair);
@@ -27,7 +31,7 @@ void ExactOcclusion::find_blockers(const DoubtfulPair& pair) {
 /// Elements that reach through each other's planes are clipped first.
 HiddenIntegral ExactOcclusion::hidden_part(const DoubtfulPair& pair) {
   const ElementShape &a = shapes_[pair.i], &b = shapes_[pair.j];
-  const double tolerance = tolerance_ * pair.unoccluded.value;
+  const double tolerance = tolerance_ * std::max(pair.unoccluded.value, least_of_row_ * std::min(a.area, b.area));
   if (pair.unoccluded.facing == Facing::full) return hidden_between(a, b, tolerance);
   HiddenIntegral sum{0, 0, true};
   const Pieces of_a = pieces_in_front(a, b.plane), of_b = pieces_in_front(b, a.plane);

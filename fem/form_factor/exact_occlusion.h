@@ -11,7 +11,10 @@ namespace interflect::fem {
 /// all of them, and `hybrid` with the difficult ones.
 class ExactOcclusion final : public PairOcclusion {
  public:
-  /// @param tolerance  relative to the unoccluded K.  What is referred to outlives this.
+  /// @param tolerance  relative to the unoccluded K, or to what a sixteenth of a row would give each element, if that
+  /// is
+  ///                   more: so many of them add up to a sixteenth of the tolerance at most.  What is referred to
+  ///                   outlives this.
   ExactOcclusion(const ElementShapes& shapes, const Blockers& blockers, double tolerance);
 
   ExchangeEntry operator()(const DoubtfulPair& pair, PairCounts& counts) override;
@@ -23,7 +26,7 @@ class ExactOcclusion final : public PairOcclusion {
 
   const ElementShapes& shapes_;
   const Blockers& blockers_;
-  double tolerance_;
+  double tolerance_, least_of_row_;
   HiddenExchange hidden_;
   std::vector<std::uint32_t> found_;
   std::vector<const geometry::ConvexBlocker*> list_;
