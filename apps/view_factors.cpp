@@ -220,7 +220,7 @@ fem::ToleranceReport fill(FactorStoreWriter& writer, const fem::MethodMaker& mak
   StoredPoints rows(writer);
   fem::assemble_points(points, request.places(), rows, run);
   StoredTiles tiles(writer);
-  const fem::ToleranceReport report =
+  fem::ToleranceReport report =
       fem::assemble_tiles(make, tolerance, request.elements.seeing(), tiles, run, request.covered);
   writer.finish();
   return report;

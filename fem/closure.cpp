@@ -25,11 +25,11 @@ struct Entry {
 };
 constexpr Entry catalogue[] = {{"scaling", scaling_law}, {"least-squares", least_squares_law}};
 
-std::unique_ptr<ClosureLaw> make_law(const ClosureSettings& settings, const SymmetricOperator& K,
-                                     const EntryVariances& variances, Run& run) {
+std::unique_ptr<ClosureLaw> make_law(const std::string& method, const SymmetricOperator& K,
+                                     const EnvironmentColumn* environment, const EntryVariances& variances, Run& run) {
   for (const Entry& entry : catalogue)
-    if (settings.method == entry.name) return entry.make(K, settings.environment, variances, run);
-  throw core::InputError("closure by '" + settings.method + "'", "one of scaling, least-squares expected");
+    if (method == entry.name) return entry.make(K, environment, variances, run);
+  throw core::InputError("closure by '" + method + "'", "one of scaling, least-squares expected");
 }
 
 double dot(const Vector& a, const Vector& b) { return a.cwiseProduct(b).sum(); }
@@ -82,19 +82,21 @@ int balance(ClosureLaw& law, std::span<const double> areas, double tolerance, in
   }
 }
 
-/// 1 - sum_b F_ab - F_a,env
-std::vector<double> misclosure_of(std::span<const double> row_sum, const EnvironmentColumn* environment) {
+/// 1 - sum_b F_ab - F_a,env - dropped_a
+std::vector<double> misclosure_of(std::span<const double> row_sum, const EnvironmentColumn* environment,
+                                  std::span<const double> dropped) {
   std::vector<double> off;
   for (std::size_t a = 0; a < row_sum.size(); ++a)
-    off.push_back(1 - row_sum[a] - (environment == nullptr ? 0 : environment->factor[a]));
+    off.push_back(1 - row_sum[a] - (environment == nullptr ? 0 : environment->factor[a]) -
+                  (dropped.empty() ? 0 : dropped[a]));
   return off;
 }
 
 /// What an operator's rows may be off by, for what was not sampled: stated bounds, and what was left out.
-std::vector<double> row_bounds(const SymmetricOperator& K, std::span<const double> stated) {
+std::vector<double> row_bounds(Index size, std::span<const double> stated, std::span<const double> dropped) {
   std::vector<double> bounds(stated.begin(), stated.end());
-  bounds.resize(static_cast<std::size_t>(K.size()), 0.0);
-  for (std::size_t a = 0; a < K.dropped().size(); ++a) bounds[a] += K.dropped()[a];
+  bounds.resize(static_cast<std::size_t>(size), 0.0);
+  for (std::size_t a = 0; a < dropped.size(); ++a) bounds[a] += dropped[a];
   return bounds;
 }
 
@@ -140,18 +142,76 @@ double largest(std::span<const double> values) {
   return most;
 }
 
-void require_found(const ClosureLaw& law, const ClosureReport& report, const ClosureSettings& settings) {
-  const double left = law.row_error();
-  if (left > 1e-3 * report.row_error_before && left > settings.tolerance)
-    throw core::InputError(
-        core::format("closure of %td elements: no symmetric change of the form factors by %s makes every row sum 1 "
-                     "(one is off by %.2g still)",
-                     law.size(), settings.method.c_str(), left));
-  if (report.correction > settings.largest_correction)
+/// A repair of K, balanced, that is yet to be made.
+class Repair {
+ public:
+  /// @param dropped  taken for exchange that the rows have, too; empty: rows of K and the environment are to be 1 alone
+  Repair(const SymmetricOperator& K, const EnvironmentColumn* environment, std::span<const double> dropped,
+         const ClosureSettings& settings, Run& run)
+      : K_(K), settings_(settings), off_(misclosure_of(K.row_sums(run), environment, dropped)) {
+    const std::vector<double> bounds =
+        row_bounds(K.size(), settings.row_bound, dropped.empty() ? K.dropped() : std::span<const double>());
+    const EntryVariances variances = entry_variances(K, bounds, off_, K.row_sums(run), run);
+    law_ = make_law(settings.method, K, environment, variances, run);
+    Vector aside = Vector::Zero(K.size(), 1);
+    for (std::size_t a = 0; a < dropped.size(); ++a) aside(static_cast<Index>(a), 0) = dropped[a] * K.gram()[a];
+    law_->set_aside(std::move(aside));
+    const double tolerance = settings.tolerance / 4;  // rounding needs its part, too
+    iterations_ = balance(*law_, K.gram(), tolerance, settings.max_iterations, run);
+    require_balanced();
+  }
+
+  const ClosureLaw& law() const { return *law_; }
+  double row_error_before() const { return largest(off_); }
+  int iterations() const { return iterations_; }
+  std::vector<double> environment() const {
+    std::vector<double> factors;
+    for (Index a = 0; a < K_.size(); ++a)
+      factors.push_back(law_->environment(a) / K_.gram()[static_cast<std::size_t>(a)]);
+    return factors;
+  }
+
+ private:
+  void require_balanced() const {
+    const double left = law_->row_error();
+    if (left > 1e-3 * row_error_before() && left > settings_.tolerance)
+      throw core::InputError(
+          core::format("closure of %td elements: no symmetric change of the form factors by %s makes every row sum 1 "
+                       "(one is off by %.2g still)",
+                       K_.size(), settings_.method.c_str(), left));
+  }
+
+  const SymmetricOperator& K_;
+  const ClosureSettings& settings_;
+  std::vector<double> off_;
+  std::unique_ptr<ClosureLaw> law_;
+  int iterations_ = 0;
+};
+
+/// What was dropped goes from element to element, and the environment has no part in it: its column as it is with those
+/// entries in their rows, for K's own repair to keep.
+EnvironmentColumn beside_dropped(const SymmetricOperator& K, const ClosureSettings& settings, Run& run) {
+  const Repair with_dropped(K, settings.environment, K.dropped(), settings, run);
+  return {with_dropped.environment(), std::vector<double>(static_cast<std::size_t>(K.size()), 0.0)};
+}
+
+/// What a repair may change: what errors may explain, and the part of a row that dropped entries are known to be.
+double largest_change(const SymmetricOperator& K, std::span<const double> row_sum, const ClosureSettings& settings) {
+  double share = 0;
+  for (std::size_t a = 0; a < K.dropped().size(); ++a)
+    if (row_sum[a] > 0) share = std::max(share, K.dropped()[a] / row_sum[a]);
+  return settings.largest_correction + share;
+}
+
+/// ||K' - K|| / ||K||, Frobenius.
+double accepted_change(const SymmetricOperator& K, const ClosureLaw& law, double most, const Run& run) {
+  const double correction = relative_change(K, law, run);
+  if (!(correction <= most))
     throw core::InputError(core::format(
         "closure of %td elements: it would change the form factors by %.3g of their norm, more than the %.3g "
         "that errors may explain",
-        law.size(), report.correction, settings.largest_correction));
+        law.size(), correction, most));
+  return correction;
 }
 
 }  // namespace
@@ -164,27 +224,28 @@ std::vector<std::string> closure_names() {
 
 ClosureReport restore_closure(SymmetricOperator& K, Run& run, const ClosureSettings& settings) {
   const EnvironmentColumn* environment = settings.environment;
-  const std::vector<double> row_sum = K.row_sums(run), bound = row_bounds(K, settings.row_bound);
-  std::vector<double> off = misclosure_of(row_sum, environment);
-  if (environment == nullptr)
-    require_nearly_closed(off, K.dropped(), settings.largest_row_error);
-  else
-    require_explained(K, off, *environment, bound, run);
-  const std::unique_ptr<ClosureLaw> law = make_law(settings, K, entry_variances(K, bound, off, row_sum, run), run);
-  ClosureReport report;
-  report.row_error_before = largest(off);
-  report.iterations =
-      balance(*law, K.gram(), settings.tolerance / 4, settings.max_iterations, run);  // rounding needs its part, too
-  report.correction = relative_change(K, *law, run);
-  require_found(*law, report, settings);
-  K.change([&](const StoredPair& pair) { return law->repaired(pair); }, run);
-  off = misclosure_of(K.row_sums(run), nullptr);
-  for (std::size_t a = 0; environment != nullptr && a < off.size(); ++a) {
-    report.environment.push_back(law->environment(static_cast<Index>(a)) / K.gram()[a]);
-    off[a] -= report.environment[a];
+  const std::vector<double> row_sum = K.row_sums(run);
+  EnvironmentColumn beside;
+  if (environment == nullptr) {
+    require_nearly_closed(misclosure_of(row_sum, nullptr, {}), K.dropped(), settings.largest_row_error);
+  } else {
+    require_explained(K, misclosure_of(row_sum, environment, K.dropped()), *environment,
+                      row_bounds(K.size(), settings.row_bound, K.dropped()), run);
+    if (!K.dropped().empty()) {
+      beside = beside_dropped(K, settings, run);
+      environment = &beside;
+    }
   }
-  report.row_error_after = largest(off);
+  const Repair repair(K, environment, {}, settings, run);
+  ClosureReport report;
+  report.row_error_before = largest(misclosure_of(row_sum, settings.environment, {}));
+  report.iterations = repair.iterations();
+  report.correction = accepted_change(K, repair.law(), largest_change(K, row_sum, settings), run);
+  K.change([&](const StoredPair& pair) { return repair.law().repaired(pair); }, run);
+  EnvironmentColumn after{repair.environment(), {}};
+  report.row_error_after = largest(misclosure_of(K.row_sums(run), &after, {}));
   report.converged = report.row_error_after <= settings.tolerance;
+  if (environment != nullptr) report.environment = std::move(after.factor);
   return report;
 }
 

@@ -14,7 +14,7 @@ struct ClosureSettings {
   double tolerance = 1e-13;        ///< on max_a |sum_b F_ab + F_a,env - 1| afterwards
   /// Of a closed scene: refused where |sum_b F_ab - 1| is larger before: that is an opening, not an error.
   double largest_row_error = 0.2;
-  double largest_correction = 0.1;  ///< refused where ||K' - K|| / ||K|| would be larger
+  double largest_correction = 0.1;  ///< refused where ||K' - K|| / ||K|| would be larger, by more than what was dropped
   int max_iterations = 50;          ///< of Newton's method
   std::span<const double> row_bound = {};          ///< sum_b bound_ab / A_a of what was not sampled; empty: not known
   const EnvironmentColumn* environment = nullptr;  ///< of an open scene
@@ -56,6 +56,9 @@ std::vector<std::string> closure_names();
 /// with Newton's method; it is semismooth where clamps are (an entry at a bound has the slope 0) [Qi, Sun 1993].  Its
 /// steps are by conjugate gradients with the operator alone [scaling: after Knight, Ruiz 2013; least squares without the
 /// bounds: Larsen, Howell 1986; van Leersum 1989].
+///
+/// Where an operator dropped entries, the environment is found first with what they are known to bring in their rows; then,
+/// fixed, K is repaired to the rows without them: what was dropped is given to other entries, not to the environment.
 ///
 /// Scaling keeps positive entries positive; least squares may set one to 0.  To first order they differ by the weights
 /// alone: scaling's are w_ab = K_ab.  Neither removes errors that rows do not show.

@@ -28,7 +28,7 @@ EntryVariances entry_variances(const SymmetricOperator& K, std::span<const doubl
 
 ClosureLaw::ClosureLaw(const SymmetricOperator& K, const EnvironmentColumn* environment,
                        const EntryVariances& variances, Run& run)
-    : K_(K), run_(run), found_(Vector::Zero(K.size(), 1)), slope_(found_) {
+    : K_(K), run_(run), found_(Vector::Zero(K.size(), 1)), slope_(found_), aside_(found_) {
   if (environment == nullptr) return;
   for (Index a = 0; a < K.size(); ++a) {
     const auto row = static_cast<std::size_t>(a);
@@ -48,7 +48,7 @@ void ClosureLaw::set(const Vector& u) {
     environment_(a, 0) = std::clamp(z, 0.0, areas()(a));
     if (z == environment_(a, 0)) stiffness_(a, 0) += slope_(a, 0);
   }
-  sums_ += environment_;
+  sums_ += environment_ + aside_;
 }
 
 double ClosureLaw::row_error() const {

@@ -50,6 +50,8 @@ class ClosureLaw {
   virtual Vector times(const Vector& v) const = 0;
 
   void set(const Vector& u);
+  /// What rows have beside K' and the environment, whatever u is [m²].
+  void set_aside(Vector exchange) { aside_ = std::move(exchange); }
   /// sum_b phi'_ab + dz_a / du_a: what the Hessian has on its diagonal beside `times`.
   const Vector& stiffness() const { return stiffness_; }
   Vector missing() const { return areas() - sums_; }                ///< A_a - sum_b K'_ab - z_a
@@ -74,6 +76,7 @@ class ClosureLaw {
   const SymmetricOperator& K_;
   Run& run_;
   Vector found_, slope_;  ///< Z_a and v_a / kappa [m²]
+  Vector aside_;
   Vector u_, sums_, stiffness_, environment_;
 };
 

@@ -21,7 +21,7 @@ using Blockers = std::span<const ConvexBlocker* const>;
 constexpr std::size_t most_cells = 20'000;
 constexpr std::size_t most_events = 24;  ///< beyond, the element is quartered first: the parts have fewer each
 constexpr std::size_t most_kinks = 12;   ///< of one cell at a time
-constexpr int deepest = 5;
+constexpr int deepest = 2;
 constexpr int rungs = 4;
 constexpr double smooth = 0.5;       ///< cells are climbed on whose radius is at most that part of their distance
 constexpr double same_place = 1e-9;  ///< of corners, beside the radius of the inner element
@@ -79,7 +79,7 @@ class HiddenExchange::Pair {
     work_.events_.start(ring, inner_.ring());
     for (const PairShadow& shadow : shadows()) work_.events_.add(shadow);
     if (work_.events_.planes().size() > most_events) {
-      if (depth == deepest) return give_up(ring);
+      if (depth == deepest) return add_uncut(ring);
       for (const auto& part : scene::quarters_of(ring)) cover({part.data(), ring.size()}, depth + 1);
       return;
     }
@@ -99,6 +99,8 @@ class HiddenExchange::Pair {
       if (worst.rung + 1 < rungs && ratio(worst) <= smooth) {
         climb(worst);
         push(worst);
+      } else if (worst.uncut) {
+        for (const auto& part : scene::quarters_of(worst.ring())) cover({part.data(), worst.corners}, deepest);
       } else if (!worst.kinked || !follow_kinks(worst)) {
         for (const auto& part : scene::quarters_of(worst.ring())) add(Cell{part, worst.corners, Hides::none, {}});
       }
@@ -106,7 +108,7 @@ class HiddenExchange::Pair {
   }
   /// Summed afresh: the running sums carry the rounding of what was taken out.
   HiddenIntegral result() const {
-    HiddenIntegral sum{given_up_.value, given_up_.error, all_};
+    HiddenIntegral sum{0, 0, all_};
     for (const Cell& cell : work_.cells_) sum.value += cell.value, sum.error += cell.error;
     return sum;
   }
@@ -122,13 +124,14 @@ class HiddenExchange::Pair {
       add(cell);
     }
   }
-  /// Half of it may be hidden, or all, or nothing.
-  void give_up(std::span<const Vec3> ring) {
-    Cell cell{{ring[0], ring[1], ring[2], ring[ring.size() - 1]}, ring.size(), Hides::all, {}};
-    const double half = 0.5 * integral(cell);
+  /// With more lines than it is worth to be cut by: integrated as if there were kinks everywhere.
+  void add_uncut(std::span<const Vec3> ring) {
+    Cell cell{{ring[0], ring[1], ring[2], ring[ring.size() - 1]}, ring.size(), Hides::part, {0, true}};
+    cell.kinked = cell.uncut = true;
     all_ = false;
-    given_up_.value += half;
-    given_up_.error += half;
+    cell.value = integral(cell);
+    climb(cell);
+    push(cell);
   }
   void add(Cell cell) {
     classify(cell);
@@ -234,8 +237,7 @@ class HiddenExchange::Pair {
   HiddenExchange& work_;
   const ElementShape &outer_, &inner_;
   double value_ = 0, error_ = 0;
-  bool all_ = true;    ///< is hidden from all cells
-  Integral given_up_;  ///< parts with too many events
+  bool all_ = true;  ///< is hidden from all cells
 };
 
 HiddenIntegral HiddenExchange::operator()(const ElementShape& outer, const ElementShape& inner, Blockers blockers,

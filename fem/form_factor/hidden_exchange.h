@@ -81,6 +81,7 @@ class HiddenExchange {
     ShadowSet parts;         ///< the shadows that hide a part each
     std::uint64_t form = 0;  ///< where there are several: of what they leave to be seen
     bool kinked = false;     ///< that has another form here than there
+    bool uncut = false;      ///< too many lines go through it: nothing is known of it but by its nodes
     double ratio = 1;        ///< of its radius to its distance from the edges that shape the shadows
     int rung = 0;
     double value = 0, error = 0;
