@@ -105,12 +105,14 @@ void ShadowEvents::add_corner_and_edge(const Vec3& corner, const Vec3& a, const 
   if (in_line(from, to, corner, a, b, normal)) planes_.push_back(plane);
 }
 
-/// Whether from some point of the chord the corner is in line with the edge, between its ends.
+/// Whether from some point of the chord the corner is in line with the edge, between its ends or at one, within
+/// rounding: an edge may end on the line from a floor's corner along that floor.
 bool ShadowEvents::in_line(const Vec3& from, const Vec3& to, const Vec3& corner, const Vec3& a, const Vec3& b,
                            const Vec3& normal) const {
   const auto [low, high] = std::minmax({side(from, corner, a, normal), side(from, corner, b, normal),
                                         side(to, corner, a, normal), side(to, corner, b, normal)});
-  return low < 0 && high > 0;
+  const double margin = rounding_ * std::max((corner - from).norm(), (corner - to).norm()) * normal.norm();
+  return low <= margin && high >= -margin;
 }
 
 /// False only if no ray from the chord through the corner goes on to the inner polygon: the rays meet its plane in a
