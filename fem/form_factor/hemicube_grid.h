@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -40,7 +41,7 @@ struct FaceGrid {
   CellAxis x, y;
   std::vector<double> weight;
 
-  double weight_at(int i, int j) const { return weight[static_cast<std::size_t>(j * x.cells() + i)]; }
+  double weight_at(int i, int j) const { return weight[static_cast<std::size_t>(std::ptrdiff_t{j} * x.cells() + i)]; }
   double sum() const;
 };
 

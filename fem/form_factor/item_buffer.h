@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -31,7 +32,7 @@ class ItemBuffer {
   struct Rows {
     int begin, end;
   };
-  std::size_t at(int i, int j) const { return static_cast<std::size_t>(j * grid_.x.cells() + i); }
+  std::size_t at(int i, int j) const { return static_cast<std::size_t>(std::ptrdiff_t{j} * grid_.x.cells() + i); }
   Rows find_spans(const ProjectedPolygon& polygon);
   void widen_spans(double x_from, double y_from, double x_to, double y_to);
   void count_borders(int j, SeenItems& seen) const;
