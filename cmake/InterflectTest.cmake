@@ -12,7 +12,7 @@ function(interflect_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  if(INTERFLECT_SANITIZE MATCHES thread)
+  if(INTERFLECT_SANITIZE)
     math(EXPR ARG_TIMEOUT "8 * ${ARG_TIMEOUT}")  # statistics slow down twenty times
   endif()
   add_executable(test_${name} ${ARG_SOURCES})
