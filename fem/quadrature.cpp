@@ -80,6 +80,22 @@ Rule quad_rule(int points) {
   return rule;
 }
 
+Rule closed_triangle_rule() {
+  Rule rule;
+  add_centroid(rule, 9.0 / 20.0);
+  add_three(rule, 0.5, 2.0 / 15.0);
+  add_three(rule, 0.0, 1.0 / 20.0);
+  return rule;
+}
+
+Rule closed_quad_rule() {
+  Rule rule;
+  for (const double u : {0.5, 0.0, 1.0})
+    for (const double v : {0.5, 0.0, 1.0})
+      rule.push_back({u, v, (u == 0.5 ? 4.0 : 1.0) * (v == 0.5 ? 4.0 : 1.0) / 36.0});
+  return rule;
+}
+
 Rule triangle_rule(int degree) {
   if (degree < 0 || degree > 8) throw core::PreconditionError("triangle_rule: a degree of 0 .. 8 expected");
   Rule rule;

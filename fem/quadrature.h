@@ -8,7 +8,8 @@
 /// Integration over triangles and quads.
 namespace interflect::fem {
 
-/// A node of a rule on a reference element: barycentric (u, v) on the triangle (0,0) (1,0) (0,1), or [0,1]² on the quad.
+/// A node of a rule on a reference element: barycentric (u, v) on the triangle (0,0) (1,0) (0,1), or [0,1]² on the
+/// quad.
 struct RuleNode {
   double u, v;
   double weight;  ///< the weights of a rule sum to 1
@@ -33,13 +34,18 @@ Rule quad_rule(int points);
 /// @throws core::PreconditionError  outside 0 .. 8.  Test: tests/fem/quadrature.cpp, by all monomials.
 Rule triangle_rule(int degree);
 
+/// Rules of degree 3 with nodes in the corners, the middles of the sides and the centroid, the first: Simpson's on
+/// quads, on triangles 9/20 at the centroid, 2/15 at each middle, 1/20 at each corner [Hammer, Stroud 1956].
+Rule closed_triangle_rule();
+Rule closed_quad_rule();
+
 /// A triangle's rule and a quad's, to be used side by side.
 struct RulePair {
   Rule triangle, quad;
   const Rule& of(std::size_t corners) const { return corners == 3 ? triangle : quad; }
 };
-/// Quads by points² Gauss nodes, triangles by the rule of the same order of convergence: degree 2 points - 1 rounded up to the
-/// next positive rule; 1 <= points <= 4.
+/// Quads by points² Gauss nodes, triangles by the rule of the same order of convergence: degree 2 points - 1 rounded up
+/// to the next positive rule; 1 <= points <= 4.
 RulePair rules_of(int points);
 
 /// Position at (u, v): affine on three corners, bilinear on four, as mesh::ElementPoint counts them.
@@ -47,8 +53,8 @@ Vec3 point_on(std::span<const Vec3> ring, double u, double v);
 
 /// |d position / du x d position / dv| [m²]; on a triangle twice its area.
 ///
-/// On a planar quad the bilinear terms of the product vanish, so that it is linear in (u, v) and even one Gauss node has the
-/// exact area.
+/// On a planar quad the bilinear terms of the product vanish, so that it is linear in (u, v) and even one Gauss node
+/// has the exact area.
 double jacobian(std::span<const Vec3> ring, double u, double v);
 
 /// The rule's nodes on a planar triangle or convex quad, appended to `out`.

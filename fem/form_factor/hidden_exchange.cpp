@@ -35,6 +35,20 @@ const Rule& rule_of(int rung, std::size_t corners) {
   return ladder[static_cast<std::size_t>(rung)].of(corners);
 }
 
+/// Nodes in the middle, near the corners and near the middles of the sides: on the lines themselves one of two forms is
+/// as good as the other.
+const Rule& closed_rule_of(std::size_t corners) {
+  const auto inwards = [](Rule rule) {
+    for (RuleNode& node : rule) {
+      node.u += 1e-3 * (rule.front().u - node.u);
+      node.v += 1e-3 * (rule.front().v - node.v);
+    }
+    return rule;
+  };
+  static const RulePair rules{inwards(closed_triangle_rule()), inwards(closed_quad_rule())};
+  return rules.of(corners);
+}
+
 /// From a point to what shapes the shadows there: the edges of the inner element and the blockers' [m].
 double distance_to_edges(const Vec3& x, std::span<const Vec3> inner, std::span<const PairShadow> shadows) {
   double distance = std::numeric_limits<double>::infinity();
@@ -129,6 +143,7 @@ class HiddenExchange::Pair {
     Cell cell{{ring[0], ring[1], ring[2], ring[ring.size() - 1]}, ring.size(), Hides::part, {0, true}};
     cell.kinked = cell.uncut = true;
     all_ = false;
+    look_from_border(cell);
     cell.value = integral(cell);
     climb(cell);
     push(cell);
@@ -137,6 +152,7 @@ class HiddenExchange::Pair {
     classify(cell);
     all_ = all_ && cell.hides == Hides::all;
     if (cell.hides == Hides::none) return;
+    if (several_hide(cell) || ratio(cell) > smooth) look_from_border(cell);
     cell.value = integral(cell);
     climb(cell);
     push(cell);
@@ -158,19 +174,14 @@ class HiddenExchange::Pair {
       }
       cell.parts.add(k);
     }
-    if (cell.parts.several()) find_form(cell, eye);
   }
-  /// How many corners there are to what is seen past several, and whether there are as many from near the cell's
-  /// corners and the middles of its sides: on the lines themselves one of two forms is as good as the other.
-  void find_form(Cell& cell, const Vec3& centre) const {
-    constexpr double inwards = 1e-3;
-    cell.form = form_seen(cell, centre);
-    const auto ring = cell.ring();
-    for (std::size_t k = 0; k < ring.size() && !cell.kinked; ++k) {
-      const Vec3& next = ring[k + 1 < ring.size() ? k + 1 : 0];
-      for (const Vec3& x : {ring[k], Vec3(0.5 * (ring[k] + next))})
-        cell.kinked = cell.kinked || form_seen(cell, x + inwards * (centre - x)) != cell.form;
-    }
+  static bool several_hide(const Cell& cell) { return cell.hides == Hides::part && cell.parts.several(); }
+  /// The integral by nodes near the border; and whether what is seen past several has another form there than from the
+  /// middle.
+  void look_from_border(Cell& cell) const {
+    const Rule& rule = closed_rule_of(cell.corners);
+    if (several_hide(cell)) cell.form = form_seen(cell, point_on(cell.ring(), rule.front().u, rule.front().v));
+    cell.by_border = integral(cell, rule);
   }
   std::uint64_t form_seen(const Cell& cell, const Vec3& eye) const {
     look_past(cell, eye);
@@ -205,27 +216,27 @@ class HiddenExchange::Pair {
     cell.error = error_of(cell, std::abs(cell.value - before));
   }
   static double error_of(const Cell& cell, double difference) {
-    if (cell.kinked) return difference;
     const bool quad = cell.corners == 4;
     const double c = quad && !cell.parts.several() ? 0.5 : 2, q = ratio(cell);
-    const double typical = q <= smooth ? 0.2 * std::pow(q, degree_of(cell.rung, cell.corners) + 1) * cell.value : 0;
-    return std::min(1.0, c * q) * difference + typical;
+    if (q > smooth)
+      return (cell.kinked ? 2 : 1) * std::max(std::min(1.0, c * q) * difference, std::abs(cell.by_border - cell.value));
+    return c * q * difference + 0.2 * std::pow(q, degree_of(cell.rung, cell.corners) + 1) * cell.value;
   }
   /// Of the cell to the distance over which its integrand varies; 1 where that has kinks.
   static double ratio(const Cell& cell) { return cell.kinked ? 1 : std::min(1.0, cell.ratio); }
-  /// By the rule of its rung, whose nodes may find a kink.
-  double integral(Cell& cell) const {
-    const double scale = cell.corners == 3 ? 0.5 : 1.0;
+  double integral(Cell& cell) const { return integral(cell, rule_of(cell.rung, cell.corners)); }
+  /// Its nodes may find a kink.
+  double integral(Cell& cell, const Rule& rule) const {
     double sum = 0;
-    for (const RuleNode& node : rule_of(cell.rung, cell.corners))
+    for (const RuleNode& node : rule)
       sum += node.weight * jacobian(cell.ring(), node.u, node.v) * factor(cell, point_on(cell.ring(), node.u, node.v));
-    return scale * sum;
+    return (cell.corners == 3 ? 0.5 : 1.0) * sum;
   }
   double factor(Cell& cell, const Vec3& eye) const {
     const Vec3& normal = outer_.plane.normal;
     if (cell.hides == Hides::all) return point_to_polygon_above_horizon(eye, normal, inner_.ring());
     look_past(cell, eye);
-    if (cell.parts.several() && !cell.kinked) cell.kinked = work_.form_seen(eye, inner_, cell.parts) != cell.form;
+    if (several_hide(cell) && !cell.kinked) cell.kinked = work_.form_seen(eye, inner_, cell.parts) != cell.form;
     return work_.factor_of_hidden(normal);
   }
   void look_past(const Cell& cell, const Vec3& eye) const {

@@ -31,17 +31,19 @@ struct HiddenIntegral {
 /// degree d_0, d_1, .. and q = radius of the cell / its distance from the edges that shape the shadow, the error of v_l
 /// is taken for
 ///
-///   min(1, c q) |v_l - v_{l-1}| + 0.2 q^{d_l + 1} v_l   (the second where q <= 1/2)
+///   c q |v_l - v_{l-1}| + 0.2 q^{d_l + 1} v_l   where q <= 1/2,    max(min(1, c q) |v_l - v_{l-1}|, |v_l - w|)   else
 ///
 /// the error of the step before, of which a step leaves what is one order higher, and what is typical, since a
-/// difference may be small by chance.  (c = 1/2 on quads past one blocker, else 2: fitted,
-/// tests/fem/claimed_errors.cpp.)  In a cell a blocker hides nothing, all, or a part: what hides nothing or all of
-/// `inner` from the centroid does so from the whole cell.  Where several hide parts each, kinks remain between the
-/// lines, across which what is seen past all of them gains or loses corners, or has them on other shadows' edges.  A
-/// cell from whose middle, nodes, and from near whose corners and middles of sides it has as many on each edge is taken
-/// for smooth.  In one with a kink the error is the difference; it is cut along those lines that go through a corner of
-/// one blocker and an edge of another, and then quartered (what is left are surfaces of second degree, through three
-/// edges).  The cell with the largest error goes first, until the errors sum to the tolerance.
+/// difference may be small by chance; w is of a rule with nodes near the corners and sides, for what no node of the
+/// ladder sees.  (c = 1/2 on quads past one blocker, else 2: fitted, tests/fem/claimed_errors.cpp.  Without w, one in
+/// seven of the cells that many lines cross was off by more than stated, by all of its value at worst.)  In a cell a
+/// blocker hides nothing, all, or a part: what hides nothing or all of `inner` from the centroid does so from the whole
+/// cell.  Where several hide parts each, kinks remain between the lines, across which what is seen past all of them
+/// gains or loses corners, or has them on other shadows' edges.  A cell from whose middle, nodes, and from near whose
+/// corners and middles of sides it has as many on each edge is taken for smooth.  One with a kink has q = 1 and twice
+/// the error; it is cut along those lines that go through a corner of one blocker and an edge of another, and then
+/// quartered (what is left are surfaces of second degree, through three edges).  The cell with the largest error goes
+/// first, until the errors sum to the tolerance.
 ///
 /// Not shared between threads: it holds the work's memory.
 class HiddenExchange {
@@ -85,6 +87,7 @@ class HiddenExchange {
     double ratio = 1;        ///< of its radius to its distance from the edges that shape the shadows
     int rung = 0;
     double value = 0, error = 0;
+    double by_border = 0;  ///< with several parts, or near an edge: the value by nodes at corners and sides
     std::span<const Vec3> ring() const { return {corner.data(), corners}; }
     friend bool operator<(const Cell& a, const Cell& b) { return a.error < b.error; }
   };

@@ -76,6 +76,15 @@ Room with_a_table() {
   return room;
 }
 
+/// More lines of shadows than an element is cut along.
+Room with_a_grove() {
+  Room room;
+  room.box({0, 0, 0}, {5, 4, 3}, 3);
+  for (const double x : {1.0, 2.1, 3.3, 4.1})
+    for (const double y : {.8, 1.9, 3.2}) room.box({x, y, .1}, {.04, .05, 2.6}, 1, false);
+  return room;
+}
+
 /// A hundred triangles of very different sizes that cross each other.
 Room of_triangles() {
   core::RandomNumbers random(77, 3, 0);
@@ -103,6 +112,13 @@ TEST(ClaimedErrors, of_ten_thousand_pairs_are_mostly_enough_and_not_far_more) {
   }
   ASSERT_GT(all.ratios.size(), 5000u);
   EXPECT_LE(all.median(), 10);
+}
+
+TEST(ClaimedErrors, hold_where_more_lines_cross_than_are_cut_along) {
+  Room grove = with_a_grove();
+  const Claims claims = claims_of(grove, 1e-3, 200, 5);
+  EXPECT_LE(static_cast<double>(claims.too_small), 0.01 * static_cast<double>(claims.pairs));
+  EXPECT_GT(claims.ratios.size(), 100u);
 }
 
 }  // namespace
