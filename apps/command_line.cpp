@@ -100,6 +100,8 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
   command.add_option("SCENE", scene, "Scene file (docs/scene.md)")->required();
 }
 
+constexpr const char* when_no_rows = "none: --quadrature-tolerance";
+
 /// How much a form-factor method does; `when_0` is what a tolerance of 0 means, where that is the default.
 void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples, int& resolution, const std::string& when_0 = "") {
   CLI::Option* tolerance = command.add_option("--tolerance", row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
@@ -141,7 +143,7 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
   add_closure(command, s.closure);
   command.add_option("--drop-below", s.drop_below, "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
       ->check(CLI::Range(0.0, 1.0))->capture_default_str();
-  add_effort(command, s.row_tolerance, s.samples, s.resolution, "none: --quadrature-tolerance");
+  add_effort(command, s.row_tolerance, s.samples, s.resolution, when_no_rows);
   command.add_flag_callback("--forecast", [&options, out] {
     options.forecast_only = true;
     out->required(false);
@@ -224,6 +226,7 @@ void add_view_factors(CLI::App& app, Command& chosen) {
   command->add_flag("--whole-groups", options->geometry.whole_groups, "One surface for each group and material of a mesh, not for each face");
   command->add_option("--only-occlude", options->geometry.only_occlude, "Surfaces or groups that hide, and have no view factors");
   command->add_option("--leave-out", options->geometry.left_out, "Surfaces or groups that neither see nor hide");
+  command->add_option("--view-of", options->view_of, "Also F.view.vtu and F.view.png: of every element the view factor to this surface or group");
   command->add_option("--groups", options->groups, "Sum the factors of a .csv by this")->check(CLI::IsMember({"surface", "group", "material"}));
 }
 
@@ -254,6 +257,8 @@ void add_exchange(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
       ->check(CLI::Range(1e-14, 0.5))->capture_default_str();
+  add_closure(*command, options->settings.closure);
+  add_effort(*command, options->settings.row_tolerance, options->settings.samples, options->settings.resolution, when_no_rows);
 }
 
 void add_info(CLI::App& app, Command& chosen) {

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "apps/commands.h"
 #include "apps/read_scene.h"
@@ -9,11 +12,17 @@
 #include "results/csv.h"
 #include "results/output_directory.h"
 #include "results/record.h"
+#include "results/vtu.h"
+
+#ifdef INTERFLECT_WITH_VTK
+#include "apps/element_picture.h"
+#endif
 
 namespace interflect::apps {
 namespace {
 
 using fem::ThermalExchange;
+using fem::ThermalState;
 using fem::ThermalSurface;
 
 std::string csv_of(const ThermalExchange& exchange) {
@@ -66,6 +75,41 @@ results::Record record_of(const ThermalExchange& exchange, const ExchangeOptions
   return record;
 }
 
+std::vector<double> of_elements(const ThermalExchange& exchange, double ThermalState::*what) {
+  std::vector<double> values;
+  for (const ThermalState& state : exchange.elements) values.push_back(state.*what);
+  return values;
+}
+
+void write_fields(const std::filesystem::path& file, const ThermalExchange& exchange) {
+  const mesh::ElementMesh& mesh = exchange.solution.mesh;
+  std::vector<results::CellField> fields = results::id_fields(mesh);
+  fields.push_back(results::scalar_field("temperature", of_elements(exchange, &ThermalState::temperature)));
+  fields.push_back(results::scalar_field("heat_flux", of_elements(exchange, &ThermalState::heat_flux)));
+  fields.push_back(results::scalar_field("radiosity", of_elements(exchange, &ThermalState::radiosity)));
+  fields.push_back(results::scalar_field("irradiance", of_elements(exchange, &ThermalState::irradiance)));
+  results::write_vtu(file, mesh, fields);
+}
+
+#ifdef INTERFLECT_WITH_VTK
+/// Temperatures are far from 0 and near each other.
+visual::Range range_of(std::span<const double> values) {
+  visual::Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const double value : values)
+    if (!std::isnan(value)) range = {std::min(range.low, value), std::max(range.high, value)};
+  return range.low < range.high ? range : visual::Range{range.low - 1, range.high + 1};
+}
+
+void write_pictures(const std::filesystem::path& folder, const scene::Scene& scene, const ThermalExchange& exchange) {
+  const mesh::ElementMesh& mesh = exchange.solution.mesh;
+  const std::vector<double> temperature = of_elements(exchange, &ThermalState::temperature);
+  write_element_picture(folder / "temperature.png", scene, mesh, temperature,
+                        {.title = "temperature [K]", .caption = {}, .range = range_of(temperature)});
+  write_element_picture(folder / "heat_flux.png", scene, mesh, of_elements(exchange, &ThermalState::heat_flux),
+                        {.title = "net heat flux [W/m2]", .caption = {}, .map = results::ColourMap::blue_white_red});
+}
+#endif
+
 }  // namespace
 
 ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run) {
@@ -75,6 +119,10 @@ ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common,
   const results::Record record = record_of(found, options);
   results::write_atomically(options.out / "exchange.csv", csv_of(found));
   results::write_json(options.out / "exchange.json", record);
+  write_fields(options.out / "exchange.vtu", found);
+#ifdef INTERFLECT_WITH_VTK
+  write_pictures(options.out, scene, found);
+#endif
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/display_or_warning.h"
 #include "apps/pictures.h"
-#include "core/error.h"
 #include "core/log.h"
 #include "results/image_file.h"
 #include "results/tone_mapping.h"
@@ -69,16 +69,6 @@ core::Image irradiance_picture(const visual::Display& display, const SolvedScene
   const std::string title = std::string(photometric ? "illuminance [" : "irradiance [") + solved.scene.irradiance_unit() + "]";
   return visual::false_colour(display, solved.scene, solved.solution.mesh, values,
                               {.title = title, .caption = {}, .range = range_in_view(values, shares), .camera = camera});
-}
-
-/// Null, with a warning, where no display can be had: a machine without one is no reason to lose a solution.
-std::unique_ptr<visual::Display> display_or_warning() {
-  try {
-    return std::make_unique<visual::Display>();
-  } catch (const core::InputError& error) {
-    core::log::warning(std::string("no pictures: ") + error.what());
-    return nullptr;
-  }
 }
 
 }  // namespace

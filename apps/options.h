@@ -58,6 +58,7 @@ struct ViewFactorOptions {
   int visibility_rays = 16, resolution = 256;
   std::uint64_t samples = 0;
   std::string groups;        ///< what the factors of a .csv are summed by; empty: by nothing
+  std::string view_of;       ///< a surface whose share of every element's view is drawn; empty: none
   bool forecast_only = false;
 };
 

@@ -5,6 +5,7 @@
 #include "apps/commands.h"
 #include "apps/factor_request.h"
 #include "apps/read_scene.h"
+#include "apps/view_of.h"
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
@@ -251,6 +252,8 @@ fem::ToleranceReport factors_into(const std::filesystem::path& file, const resul
 ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run) {
   if (!options.forecast_only) require_known_format(options);
   const FactorRequest request = factor_request(options);
+  std::optional<ViewOf> view;
+  if (!options.view_of.empty()) view.emplace(options.view_of, request);
   const bool talk = !common.json && !common.quiet;
   if (talk) std::printf("bounding box %s\n", box_text(request.geometry.scene).c_str());
   const auto rays = raycast::make_ray_caster("embree", request.geometry.scene);
@@ -275,6 +278,7 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
   const fem::ToleranceReport report = factors_into(file, key, make, options, request, points, talk, run);
   const FactorStore store(file);
   export_factors(options, request, store);
+  if (view) view->write(options.out, store);
   const Summary summary = summary_of(store);
   if (common.json)
     std::printf("%s\n", results::json_text(record_of(options, store, summary, report)).c_str());

@@ -42,48 +42,67 @@ scene::Scene shifted(scene::Scene scene, double environment) {
   return scene;
 }
 
-ThermalSurface surface_of(const scene::Scene& scene, const RadiositySolution& s, const mesh::ElementMesh::Part& part, double environment) {
+/// @param radiosity, irradiance  of the problem that was shifted [W/m²]
+ThermalState state_of(const scene::Thermal& thermal, double radiosity, double irradiance, double environment) {
+  const double background = scene::stefan_boltzmann * fourth(environment);
+  ThermalState state{0, thermal.heat_flux, radiosity + background, irradiance + background};
+  if (thermal.temperature) {
+    state.temperature = *thermal.temperature;
+    state.heat_flux = thermal.emissivity * (scene::stefan_boltzmann * fourth(state.temperature) - state.irradiance);
+  } else {
+    const double black = state.irradiance + state.heat_flux / thermal.emissivity;  // sigma T^4
+    state.temperature = std::sqrt(std::sqrt(black / scene::stefan_boltzmann));
+  }
+  return state;
+}
+
+ThermalSurface surface_of(const scene::Scene& scene, const RadiositySolution& s, const mesh::ElementMesh::Part& part,
+                          double environment) {
   ThermalSurface out;
-  const scene::Thermal& thermal = *scene.material(part.surface).thermal;
-  out.name = scene.side_name(part.surface, part.side);
-  out.emissivity = thermal.emissivity;
-  double error = 0;
+  double radiosity = 0, irradiance = 0, error = 0;
   for (std::size_t i = part.first; i < std::size_t{part.first} + part.count; ++i) {
     const double area = s.mesh.patches()[i].area;
     out.area += area;
-    out.radiosity += area * s.radiosity[i][0];
-    out.irradiance += area * s.irradiance[i][0];
+    radiosity += area * s.radiosity[i][0];
+    irradiance += area * s.irradiance[i][0];
     error += area * (s.irradiance_error[i][0] + normal_95 * s.irradiance_noise[i][0]);
   }
-  const double background = scene::stefan_boltzmann * fourth(environment);
-  out.radiosity = out.radiosity / out.area + background;
-  out.irradiance = out.irradiance / out.area + background;
+  const scene::Thermal& thermal = *scene.material(part.surface).thermal;
+  static_cast<ThermalState&>(out) = state_of(thermal, radiosity / out.area, irradiance / out.area, environment);
+  out.name = scene.side_name(part.surface, part.side);
+  out.emissivity = thermal.emissivity;
+  out.flux_given = !thermal.temperature;
   error /= out.area;
-  if (thermal.temperature) {
-    out.temperature = *thermal.temperature;
-    out.heat_flux = out.emissivity * (scene::stefan_boltzmann * fourth(out.temperature) - out.irradiance);
+  if (!out.flux_given) {
     out.heat_flux_error = out.emissivity * error;
-    return out;
+  } else if (!std::isnan(out.temperature)) {
+    out.temperature_error = error / (4 * scene::stefan_boltzmann * out.temperature * out.temperature * out.temperature);
+  } else {
+    throw core::InputError("surface '" + out.name + "'",
+                           "more heat is taken from it than reaches it: no temperature is cold enough");
   }
-  out.flux_given = true;
-  out.heat_flux = thermal.heat_flux;
-  const double black = out.irradiance + out.heat_flux / out.emissivity;  // sigma T^4
-  if (!(black >= 0)) throw core::InputError("surface '" + out.name + "'", "more heat is taken from it than reaches it: no temperature is cold enough");
-  out.temperature = std::sqrt(std::sqrt(black / scene::stefan_boltzmann));
-  out.temperature_error = out.temperature * error / (4 * black);
   return out;
+}
+
+std::vector<ThermalState> states_of(const scene::Scene& scene, const RadiositySolution& s, double environment) {
+  std::vector<ThermalState> states;
+  for (std::size_t i = 0; i < s.radiosity.size(); ++i)
+    states.push_back(state_of(*scene.material(s.mesh.patches()[i].surface).thermal, s.radiosity[i][0], s.irradiance[i][0],
+                              environment));
+  return states;
 }
 
 }  // namespace
 
 ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment, Run& run) {
   require_thermal(scene);
-  ThermalExchange out{{}, 0, 0, solve_radiosity(shifted(scene, environment), settings, run)};
+  ThermalExchange out{{}, {}, 0, 0, solve_radiosity(shifted(scene, environment), settings, run)};
   const RadiositySolution& s = out.solution;
   for (const mesh::ElementMesh::Part& part : s.mesh.parts()) {
     out.surfaces.push_back(surface_of(scene, s, part, environment));
     out.emitted += out.surfaces.back().area * out.surfaces.back().heat_flux;
   }
+  out.elements = states_of(scene, s, environment);
   out.to_environment = s.energy.escaped[0] + s.energy.on_backs[0];
   return out;
 }

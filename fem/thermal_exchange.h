@@ -7,21 +7,27 @@
 
 namespace interflect::fem {
 
+/// Of a place, or means over an area.
+struct ThermalState {
+  double temperature = 0;  ///< [K]: given, or found from the heat flux; of an area, of the mean of T^4
+  double heat_flux = 0;    ///< q [W/m²], net, leaving: found, or given
+  double radiosity = 0;    ///< B [W/m²]
+  double irradiance = 0;   ///< H [W/m²]
+};
+
 /// Net radiative exchange of a side of a surface, means over its area.
-struct ThermalSurface {
+struct ThermalSurface : ThermalState {
   std::string name;
-  double area = 0;            ///< [m²]
-  double emissivity = 0;      ///< hemispherical, total; the surface is grey: absorptance and emissivity are equal
-  double temperature = 0;     ///< [K]: given, or found from the heat flux (of the mean of T^4)
-  double heat_flux = 0;       ///< q [W/m²], net, leaving: found, or given
-  double radiosity = 0;       ///< B [W/m²]
-  double irradiance = 0;      ///< H [W/m²]
-  bool flux_given = false;    ///< else the temperature
-  double temperature_error = 0, heat_flux_error = 0;  ///< of what was found: estimated bound + 1.96 standard errors; 0 of what was given
+  double area = 0;          ///< [m²]
+  double emissivity = 0;    ///< hemispherical, total; the surface is grey: absorptance and emissivity are equal
+  bool flux_given = false;  ///< else the temperature
+  /// Of what was found: estimated bound + 1.96 standard errors; 0 of what was given.
+  double temperature_error = 0, heat_flux_error = 0;
 };
 
 struct ThermalExchange {
   std::vector<ThermalSurface> surfaces;
+  std::vector<ThermalState> elements;  ///< of solution.mesh; a temperature is NaN where more is taken than arrives
   double emitted = 0;         ///< sum q A over the surfaces, net [W]: what goes to the environment
   double to_environment = 0;  ///< the same found from what leaves through openings, and onto black backs [W]
   RadiositySolution solution;

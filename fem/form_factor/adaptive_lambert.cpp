@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "fem/form_factor/four_parts.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/quadrature.h"
 #include "geometry/segment.h"
-#include "scene/place.h"
 
 namespace interflect::fem {
 
@@ -33,12 +33,12 @@ const Scheme& scheme_for(double tolerance) {
   return tolerance < 1e-7 ? tight : loose;
 }
 
-/// A triangle or quad with its integral by the sum of its quarters', and what that errs by.
+/// A triangle or quad with its integral by the sum of its four parts', and what that errs by.
 struct Cell {
   std::array<Vec3, 4> corner;
   std::size_t corners;
   double refined = 0, error = 0;
-  std::array<double, 4> quarter_value{};
+  std::array<double, 4> part_value{};
   double chance = 1;  ///< of its error being small by chance: many cells even it out
 
   std::span<const Vec3> ring() const { return {corner.data(), corners}; }
@@ -75,9 +75,8 @@ class Refinement {
     cells_.pop_back();
     value_ -= worst.refined;
     error_ -= worst.error;
-    const auto parts = scene::quarters_of(worst.ring());
-    for (std::size_t k = 0; k < 4; ++k)
-      add({parts[k], worst.corners, 0.0, 0.0, {}, chance_when_cut * worst.chance}, worst.quarter_value[k]);
+    for (std::size_t k = 0; const CellPart& part : four_parts(worst.ring()))
+      add({part.corner, part.corners, 0.0, 0.0, {}, chance_when_cut * worst.chance}, worst.part_value[k++]);
   }
   bool within(double error) const { return error_ <= error || value_ <= 0.0; }
   double value() const { return value_; }
@@ -92,8 +91,8 @@ class Refinement {
 
  private:
   void add(Cell cell, double value) {
-    for (std::size_t k = 0; const auto& part : scene::quarters_of(cell.ring()))
-      cell.refined += cell.quarter_value[k++] = by_rule({part.data(), cell.corners});
+    for (std::size_t k = 0; const CellPart& part : four_parts(cell.ring()))
+      cell.refined += cell.part_value[k++] = by_rule(part.ring());
     cell.error = error_of(cell, std::abs(cell.refined - value));
     value_ += cell.refined;
     error_ += cell.error;
@@ -101,7 +100,7 @@ class Refinement {
     std::push_heap(cells_.begin(), cells_.end());
   }
   double error_of(const Cell& cell, double difference) const {
-    const auto [least, most] = std::minmax_element(cell.quarter_value.begin(), cell.quarter_value.end());
+    const auto [least, most] = std::minmax_element(cell.part_value.begin(), cell.part_value.end());
     const double spread = cell.chance * (*most - *least), s = standing(cell.ring(), inner_).ratio();
     if (!(s < rough_from)) return difference + scheme_.rough_floor * spread;
     return scheme_.smooth * difference + scheme_.smooth_floor * std::pow(s, scheme_.power) * spread;

@@ -14,11 +14,11 @@ struct LambertEffort {
 };
 
 /// K = int_{outer} F_{dA->inner} dA [m²]: Lambert's formula inside, Gauss rules outside, on cells of `outer` that are
-/// halved in both directions where the integrand is rough: towards a corner or an edge of `inner` that touches or
+/// cut in four (four_parts.h) where the integrand is rough: towards a corner or an edge of `inner` that touches or
 /// nearly touches `outer`.
 ///
 /// The worst cell is cut first, until the errors sum to at most `tolerance` times the value. A cell's error is taken
-/// from the difference e between its rule and the sum of its quarters', and from how much its quarters differ, d,
+/// from the difference e between its rule and the sum of its parts', and from how much its parts differ, d,
 /// because e may be small by chance (less so where many cells are summed: d counts 0.3 of it with each cut):
 ///
 ///   s = (radius of the cell) / (distance of its middle from inner's outline)

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/form_factor/four_parts.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/quadrature.h"
 #include "geometry/segment.h"
-#include "scene/place.h"
 
 namespace interflect::fem {
 
@@ -94,7 +94,7 @@ class HiddenExchange::Pair {
     for (const PairShadow& shadow : shadows()) work_.events_.add(shadow);
     if (work_.events_.planes().size() > most_events) {
       if (depth == deepest) return add_uncut(ring);
-      for (const auto& part : scene::quarters_of(ring)) cover({part.data(), ring.size()}, depth + 1);
+      for (const CellPart& part : four_parts(ring)) cover(part.ring(), depth + 1);
       return;
     }
     work_.rings_.clear();
@@ -114,9 +114,9 @@ class HiddenExchange::Pair {
         climb(worst);
         push(worst);
       } else if (worst.uncut) {
-        for (const auto& part : scene::quarters_of(worst.ring())) cover({part.data(), worst.corners}, deepest);
+        for (const CellPart& part : four_parts(worst.ring())) cover(part.ring(), deepest);
       } else if (!worst.kinked || !follow_kinks(worst)) {
-        for (const auto& part : scene::quarters_of(worst.ring())) add(Cell{part, worst.corners, Hides::none, {}});
+        for (const CellPart& part : four_parts(worst.ring())) add(Cell{part.corner, part.corners, Hides::none, {}});
       }
     }
   }

@@ -4,6 +4,7 @@
 
 #include "core/estimate.h"
 #include "fem/form_factor/exact_occlusion.h"
+#include "fem/form_factor/four_parts.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/form_factor/visibility.h"
 #include "fem/quadrature.h"
@@ -54,7 +55,7 @@ class Hybrid::Points final : public PairOcclusion {
     for (const Vec3& x : ring) radius = std::max(radius, 0.5 * (x - ring[0]).norm());
     const double distance = (ring[0] - inner.centroid).norm() - inner.radius;
     if (depth == deepest || radius < near * distance) return append_nodes(ring, rule_.of(ring.size()), nodes_);
-    for (const auto& part : scene::quarters_of(ring)) add_nodes({part.data(), ring.size()}, inner, depth + 1);
+    for (const CellPart& part : four_parts(ring)) add_nodes(part.ring(), inner, depth + 1);
   }
   /// The rays of a point share what Lambert's formula gives it, in proportion to their kernels.
   void add_rays(const SurfaceNode& node, const ElementShape& outer, const ElementShape& inner, core::RandomNumbers& random) {

@@ -64,7 +64,7 @@ class XmlParser {
   std::string name(const char* what) {
     const std::size_t end = std::min(bytes_.find_first_of(" \t\r\n=/><\"'", at_), bytes_.size());
     if (end == at_ || end - at_ > 1000) fail(std::string(what) + " is expected");
-    const std::string out(bytes_.substr(at_, end - at_));
+    std::string out(bytes_.substr(at_, end - at_));
     at_ = end;
     return out;
   }

@@ -6,6 +6,7 @@
 
 #include "tests/apps/factor_tables.h"
 #include "tests/apps/program.h"
+#include "tests/support/vtu_values.h"
 
 namespace interflect::test {
 namespace {
@@ -51,6 +52,26 @@ TEST(ViewFactors, are_written_in_every_format_and_summed_by_group) {
   EXPECT_NEAR(low, 1, 1e-4);
 }
 
+// The two walls of a group: what one sees of the other, and what all others see of both.
+TEST(ViewFactors, to_one_surface_are_drawn_with_their_errors) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", cube);
+  ASSERT_EQ(interflect({"view-factors", mesh, "-o", folder / "F.csv", "--view-of", "low"}).status, 0);
+  const std::string vtu = read_file(folder / "F.view.vtu");
+  const std::vector<double> F = values<double>(vtu, "view_factor"), error = values<double>(vtu, "view_factor_error");
+  ASSERT_EQ(F.size(), 6u);
+  for (std::size_t j = 0; j < 6; ++j) {
+    const double exact = j < 2 ? 0.19982489569838738 : 2 * 0.20004377607540315;
+    EXPECT_NEAR(F[j], exact, error[j] + 1e-15);
+    EXPECT_LT(error[j], 1e-4);
+    EXPECT_NEAR(values<double>(vtu, "row_sum")[j], 1, 1e-4);
+  }
+  const Outcome none = interflect({"view-factors", mesh, "-o", folder / "G.csv", "--view-of", "lamp"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(contains(none.err, "--view-of lamp: no surface or group of that name")) << none.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "G.h5"));
+}
+
 // Computed once, used by a solve: the same solution as one that computes them, to the tolerance; of another geometry they are refused.
 TEST(ViewFactors, serve_a_solve_of_the_same_geometry_and_no_other) {
   const TemporaryFolder folder;
@@ -85,6 +106,14 @@ TEST(Exchange, of_the_oven_balances) {
     }
   }
   EXPECT_TRUE(contains(read_file(folder / "out/exchange.csv"), "name,area,emissivity,temperature,temperature_error,heat_flux"));
+  const std::string vtu = read_file(folder / "out/exchange.vtu");
+  const std::vector<double> T = values<double>(vtu, "temperature"), B = values<double>(vtu, "radiosity"),
+                            H = values<double>(vtu, "irradiance"), q = values<double>(vtu, "heat_flux");
+  ASSERT_EQ(T.size(), said.at("elements").get<std::size_t>());
+  for (std::size_t i = 0; i < T.size(); ++i) {
+    EXPECT_GT(T[i], 293);
+    EXPECT_NEAR(q[i], B[i] - H[i], 1e-6 * B[i]);
+  }
   const Outcome lit = interflect({"exchange", shipped_scene("cube"), "-o", folder / "lit"});
   EXPECT_EQ(lit.status, 2);
   EXPECT_TRUE(contains(lit.err, "an emissivity with a temperature or a heat flux expected")) << lit.err;

@@ -89,7 +89,7 @@ Ring random_triangle(core::RandomNumbers& u) {
   const auto ball = [&u] {
     for (;;) {
       const double x = u.next(), y = u.next(), z = u.next();
-      if (const Vec3 p = 2 * Vec3(x, y, z) - Vec3::Ones(); p.norm() < 1) return p;
+      if (Vec3 p = 2 * Vec3(x, y, z) - Vec3::Ones(); p.norm() < 1) return p;
     }
   };
   const Vec3 centre = ball().normalized(), a = centre + 0.6 * ball(), b = centre + 0.6 * ball(), c = centre + 0.6 * ball();

@@ -62,7 +62,7 @@ class RandomPairs {
     return {a, b};
   }
   Vec3 offset(Nearness nearness, const geometry::Ring& a, const geometry::Ring& b, double size) {
-    const Vec3 touching = a[0] - b[static_cast<std::size_t>(next() * static_cast<double>(b.size()))];
+    Vec3 touching = a[0] - b[static_cast<std::size_t>(next() * static_cast<double>(b.size()))];
     switch (nearness) {
       case Nearness::common_corner:
         return touching;

@@ -2,15 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <stack>
 
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/vtu_values.h"
 #include "tiny_mesh.h"
 
 using namespace interflect;
 using namespace interflect::results;
+using test::values;
 
 namespace {
 
@@ -33,35 +34,6 @@ int well_formed(const std::string& xml) {
     if (tag.back() != '/') open.push(tag.substr(0, tag.find(' ')));
   }
   return open.empty() ? count : -1;
-}
-
-/// The bytes of an array, its length checked.
-std::string decoded(const std::string& xml, const std::string& name) {
-  std::size_t at = xml.find("Name=\"" + name + "\"");
-  if (at == std::string::npos) return "none";
-  at = xml.find(">\n", at) + 2;
-  const std::string text = xml.substr(at, xml.find('\n', at) - at);
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (char c : text) {
-    if (c == '=') break;
-    group = group << 6 | static_cast<std::uint32_t>(digits.find(c));
-    if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
-  }
-  std::uint64_t length = 0;
-  std::memcpy(&length, bytes.data(), sizeof length);
-  EXPECT_EQ(bytes.size(), sizeof length + length) << name;
-  return bytes.substr(sizeof length);
-}
-
-template <class T>
-std::vector<T> values(const std::string& xml, const std::string& name) {
-  const std::string bytes = decoded(xml, name);
-  std::vector<T> out(bytes.size() / sizeof(T));
-  std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
-  return out;
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "mesh/element_mesh.h"
+#include "scene/scene.h"
+#include "visual/picture.h"
+
+namespace interflect::apps {
+
+/// A value an element in false colours, from the scene's first camera, or from outside where it has none; where no
+/// display can be had, a warning and no picture.
+void write_element_picture(const std::filesystem::path& file, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                           std::span<const double> values, visual::FalseColour look);
+
+}  // namespace interflect::apps
