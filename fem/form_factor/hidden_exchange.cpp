@@ -80,6 +80,21 @@ double radius_of(std::span<const Vec3> ring) {
 
 }  // namespace
 
+/// Of smooth cells errors may all have one sign; where kinks fall in their cells is as good as random.
+class HiddenExchange::Errors {
+ public:
+  void add(const Cell& cell) { count(cell, 1); }
+  void take(const Cell& cell) { count(cell, -1); }
+  double total() const { return smooth_ + std::sqrt(std::max(0.0, kinked_)); }
+
+ private:
+  void count(const Cell& cell, double sign) {
+    (cell.kinked ? kinked_ : smooth_) += sign * (cell.kinked ? cell.error * cell.error : cell.error);
+  }
+  double smooth_ = 0;
+  double kinked_ = 0;  ///< the sum of squares
+};
+
 /// One pair's integration over cells.
 class HiddenExchange::Pair {
  public:
@@ -104,12 +119,12 @@ class HiddenExchange::Pair {
   }
   void refine(double tolerance) {
     std::vector<Cell>& cells = work_.cells_;
-    while (error_ > tolerance && !cells.empty() && cells.size() < most_cells) {
+    while (error_.total() > tolerance && !cells.empty() && cells.size() < most_cells) {
       std::pop_heap(cells.begin(), cells.end());
       Cell worst = cells.back();
       cells.pop_back();
       value_ -= worst.value;
-      error_ -= worst.error;
+      error_.take(worst);
       if (worst.rung + 1 < rungs && ratio(worst) <= smooth) {
         climb(worst);
         push(worst);
@@ -123,7 +138,9 @@ class HiddenExchange::Pair {
   /// Summed afresh: the running sums carry the rounding of what was taken out.
   HiddenIntegral result() const {
     HiddenIntegral sum{0, 0, all_};
-    for (const Cell& cell : work_.cells_) sum.value += cell.value, sum.error += cell.error;
+    Errors errors;
+    for (const Cell& cell : work_.cells_) sum.value += cell.value, errors.add(cell);
+    sum.error = errors.total();
     return sum;
   }
 
@@ -205,7 +222,7 @@ class HiddenExchange::Pair {
   }
   void push(const Cell& cell) {
     value_ += cell.value;
-    error_ += cell.error;
+    error_.add(cell);
     work_.cells_.push_back(cell);
     std::push_heap(work_.cells_.begin(), work_.cells_.end());
   }
@@ -247,7 +264,8 @@ class HiddenExchange::Pair {
 
   HiddenExchange& work_;
   const ElementShape &outer_, &inner_;
-  double value_ = 0, error_ = 0;
+  double value_ = 0;
+  Errors error_;
   bool all_ = true;  ///< is hidden from all cells
 };
 

@@ -106,7 +106,7 @@ TEST(ClaimedErrors, of_ten_thousand_pairs_are_mostly_enough_and_not_far_more) {
   Room boxes = with_two_boxes(), table = with_a_table(), triangles = of_triangles();
   Claims all;
   for (const Claims& claims :
-       {claims_of(boxes, 1e-3, 5000, 1), claims_of(table, 1e-3, 3000, 2), claims_of(triangles, 1e-3, 2000, 4)}) {
+       {claims_of(boxes, 1e-4, 5000, 1), claims_of(table, 1e-4, 3000, 2), claims_of(triangles, 1e-4, 2000, 4)}) {
     EXPECT_LE(static_cast<double>(claims.too_small), 0.01 * static_cast<double>(claims.pairs));
     all.ratios.insert(all.ratios.end(), claims.ratios.begin(), claims.ratios.end());
   }
