@@ -104,17 +104,36 @@ void require_known_format(const ViewFactorOptions& options) {
     throw core::InputError(options.out.string(), "--groups writes .csv");
 }
 
-/// Of a finished store of the same geometry, settings and sensors.
-std::optional<std::vector<double>> row_errors_if_there(const std::filesystem::path& file,
-                                                       const results::FactorStoreKey& key,
-                                                       const FactorRequest& request) try {
+/// A finished store of the same geometry and settings.
+std::optional<FactorStore> store_if_there(const std::filesystem::path& file, const results::FactorStoreKey& key) try {
   if (!std::filesystem::exists(file)) return std::nullopt;
-  const FactorStore store(file);
+  FactorStore store(file);
   if (store.key().digest != key.digest || store.key().settings != key.settings) return std::nullopt;
-  if (!results::same_points(store.points(), request.points)) return std::nullopt;
-  return store.row_error();
+  return store;
 } catch (const core::InputError&) {  // not a store: it will be replaced
   return std::nullopt;
+}
+
+/// Of a store that differs in its sensors alone.
+void take_tiles(const FactorStore& store, FactorStoreWriter& writer) {
+  const Index n = writer.size();
+  std::vector<double> K, error, tile, tile_error;
+  for (Index I = 0; I < writer.tiles_across(); ++I) {
+    const Index rows = writer.count(I);
+    K.resize(static_cast<std::size_t>(rows * n));
+    error.resize(K.size());
+    store.read_rows(writer.first(I), rows, K, error);
+    for (Index J = I; J < writer.tiles_across(); ++J) {
+      tile.clear();
+      tile_error.clear();
+      for (Index a = 0; a < rows; ++a) {
+        const Index from = a * n + writer.first(J), to = from + writer.count(J);
+        tile.insert(tile.end(), K.begin() + from, K.begin() + to);
+        tile_error.insert(tile_error.end(), error.begin() + from, error.begin() + to);
+      }
+      writer.write(I, J, tile, tile_error);
+    }
+  }
 }
 
 struct Summary {
@@ -232,18 +251,24 @@ fem::ToleranceReport factors_into(const std::filesystem::path& file, const resul
                                   const fem::MethodMaker& make, const ViewFactorOptions& options,
                                   const FactorRequest& request, const fem::PointViewFactors& points, bool talk,
                                   Run& run) {
-  if (const auto errors = row_errors_if_there(file, key, request)) {
+  std::optional<FactorStore> known = store_if_there(file, key);
+  if (known && results::same_points(known->points(), request.points)) {
     if (talk) std::printf("%s has them already\n", file.string().c_str());
     fem::ToleranceReport report;
-    report.row_errors = *errors;
-    report.met = *std::max_element(errors->begin(), errors->end()) <= options.tolerance;
+    report.row_errors = known->row_error();
+    report.met = *std::max_element(report.row_errors.begin(), report.row_errors.end()) <= options.tolerance;
     return report;
   }
   const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
   results::require_disk_room(folder, bytes_of(options, request) - results::begun_bytes(file));
   FactorStoreWriter writer(file, request.about, key, 512, request.points);
-  if (writer.done() > 0 && talk)
+  if (known && writer.done() == 0) {
+    if (talk) std::printf("%s has those between elements already\n", file.string().c_str());
+    take_tiles(*known, writer);
+  } else if (writer.done() > 0 && talk) {
     std::printf("going on with %s: %td of %td tiles are there\n", file.string().c_str(), writer.done(), writer.tiles());
+  }
+  known.reset();  // the file that it reads is about to be replaced
   return fill(writer, make, options.tolerance, request, points, run);
 }
 

@@ -177,6 +177,32 @@ TEST(ViewFactors, of_sensors_survive_an_interruption) {
   EXPECT_NEAR(sum, 1, 1e-10);
 }
 
+// What lies between elements is not computed again: the same bits, from the file.
+TEST(ViewFactors, of_other_sensors_keep_those_between_elements) {
+  const TemporaryFolder folder;
+  const auto run_with = [&](const std::string& points) {
+    const std::string scene =
+        R"({ "format": "interflect/scene/1", "units": "m", "quantity": "radiometric", "channels": ["y"], "weights": [1],
+  "materials": { "grey": { "type": "diffuse", "sides": "front", "reflectance": 0.5 } },
+  "geometry": [ { "name": "room", "material": "grey", "box": { "min": [0, 0, 0], "max": [2, 1, 1] }, "facing": "inward" } ],
+  "sensors": [ { "name": "s", "points": [)" +
+        points + R"(], "normal": [0, 0, 1] } ] })";
+    return interflect(
+        {"view-factors", folder.write("room.json", scene), "-o", folder / "F.csv", "--element-size", "0.09"});
+  };
+  ASSERT_EQ(run_with("[0.5, 0.5, 0.25]").status, 0);
+  const std::string between = read_file(folder / "F.csv");
+  const Outcome other = run_with("[1.5, 0.25, 0.5], [0.5, 0.5, 0.25]");
+  ASSERT_EQ(other.status, 0) << other.err;
+  EXPECT_TRUE(contains(other.out, "F.h5 has those between elements already")) << other.out;
+  EXPECT_EQ(read_file(folder / "F.csv"), between);
+  std::map<std::string, double> sums;
+  for (const auto& [pair, entry] : entries_of(read_file(folder / "F.sensors.csv"))) sums[pair.first] += entry.F;
+  EXPECT_EQ(sums.size(), 2u);
+  for (const auto& [point, sum] : sums) EXPECT_NEAR(sum, 1, 1e-10) << point;
+  EXPECT_TRUE(contains(run_with("[1.5, 0.25, 0.5], [0.5, 0.5, 0.25]").out, "has them already"));
+}
+
 TEST(Masks, survive_an_interruption) {
   const TemporaryFolder folder;
   const std::vector<std::string> command{"view-factors",   folder.write("room.vs3", room_with_crate(1)),
