@@ -192,11 +192,11 @@ struct FactorForecast {
   double elements, pairs, points, bytes, seconds;
 };
 
-/// Most of them: the store and, where another format's size is known, what is made of it.
+/// Most of them: the store and what is made of it.
 double bytes_of(const ViewFactorOptions& options, const FactorRequest& request) {
-  const auto n = static_cast<double>(request.size()), points = static_cast<double>(request.points.size());
-  const double exported = options.out.extension() == ".npz" ? 2 * sizeof(double) * n * (n + points) : 0;
-  return results::factor_store_bytes(request.size(), request.points.size()) + exported;
+  const bool summed = !options.groups.empty();  // a line for each pair of groups
+  return results::factor_store_bytes(request.size(), request.points.size()) +
+         (summed ? 0 : results::most_export_bytes(options.out, request.size(), request.points.size()));
 }
 
 FactorForecast forecast_of(const ViewFactorOptions& options, const FactorRequest& request,

@@ -253,4 +253,14 @@ void write_grouped_factors_csv(const std::filesystem::path& file, const FactorEl
   write_table(file, "from,to,F,error", names.size(), names.size(), name, name, summed);
 }
 
+double most_export_bytes(const std::filesystem::path& file, std::uint64_t elements, std::uint64_t points) {
+  const auto n = static_cast<double>(elements), entries = n * (n + static_cast<double>(points));
+  const auto digits = static_cast<double>(std::to_string(std::max(elements, points)).size());
+  constexpr double number = 23;  // 1.2345678901234567e-308
+  const std::string extension = file.extension().string();
+  if (extension == ".npz") return 2 * sizeof(double) * entries;
+  if (extension == ".mtx") return (2 * (digits + 1) + number + 1) * entries;
+  return extension == ".csv" ? (2 * (digits + 1) + 2 * (number + 1)) * entries : 0;
+}
+
 }  // namespace interflect::results

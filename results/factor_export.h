@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -7,8 +8,8 @@
 #include "results/factor_points.h"
 #include "results/factors.h"
 
-/// A finished matrix of view factors in the files of others (docs/view_factor_files.md).  Rows stream through: no file is held in
-/// memory.  All are written as AtomicFile does, and throw core::InputError as it does.
+/// A finished matrix of view factors in the files of others (docs/view_factor_files.md).  Rows stream through: no file
+/// is held in memory.  All are written as AtomicFile does, and throw core::InputError as it does.
 namespace interflect::results {
 
 /// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n); and of S points sensor_F,
@@ -25,8 +26,8 @@ void write_point_factors_mtx(const std::filesystem::path& file, const PointFacto
 /// `i,j,F,error` with 17 digits, elements numbered from 0.  Pairs whose F and error are both 0 are left out.
 void write_factors_csv(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
 
-/// `from,to,F,error`: F_GH = sum_{i in G} A_i sum_{j in H} F_ij / A_G, groups in the order of their first elements; errors
-/// add, which bounds the sum's.  Pairs as above.  Asks for the rows group by group.
+/// `from,to,F,error`: F_GH = sum_{i in G} A_i sum_{j in H} F_ij / A_G, groups in the order of their first elements;
+/// errors add, which bounds the sum's.  Pairs as above.  Asks for the rows group by group.
 /// @param group  an element's: elements.name, or whatever else is to be summed over
 void write_grouped_factors_csv(const std::filesystem::path& file, const FactorElements& elements,
                                const FactorRows& rows, std::span<const std::string> group);
@@ -37,5 +38,9 @@ void write_point_factors_csv(const std::filesystem::path& file, const PointFacto
 /// `sensor,index,to,F,error`: sums over the elements of each group.
 void write_grouped_point_factors_csv(const std::filesystem::path& file, const PointFactors& points,
                                      std::span<const std::string> group);
+
+/// Most bytes that all entries of n elements and their points take on the disk as .npz, .mtx or .csv; 0 as .h5, which
+/// is there already.
+double most_export_bytes(const std::filesystem::path& file, std::uint64_t elements, std::uint64_t points);
 
 }  // namespace interflect::results

@@ -184,6 +184,21 @@ TEST(FactorExport, csv_names_every_double_and_leaves_out_what_is_zero) {
   EXPECT_EQ(error, over_area(matrix, matrix.error));
 }
 
+// What is asked of the disk beforehand: enough, but for a heading, and not twice what is needed where every pair sees each other.
+TEST(FactorExport, sizes_are_known_beforehand) {
+  const test::TemporaryFolder scratch;
+  const Matrix matrix(300);
+  write_factors_csv(scratch / "F.csv", matrix.elements, matrix.rows());
+  write_factors_mtx(scratch / "F.mtx", matrix.elements, matrix.rows());
+  write_factors_npz(scratch / "F.npz", matrix.elements, matrix.rows());
+  for (const char* name : {"F.csv", "F.mtx", "F.npz"}) {
+    const auto bytes = static_cast<double>(std::filesystem::file_size(scratch / name)), most = most_export_bytes(scratch / name, 300, 0);
+    EXPECT_LE(bytes, most + 50e3) << name;
+    EXPECT_GT(bytes, 0.5 * most) << name;
+  }
+  EXPECT_EQ(most_export_bytes("F.h5", 300, 7), 0);
+}
+
 TEST(FactorExport, groups_are_sums_weighted_by_area_with_quoted_names) {
   const test::TemporaryFolder scratch;
   FactorElements elements;
