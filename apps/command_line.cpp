@@ -226,7 +226,8 @@ void add_view_factors(CLI::App& app, Command& chosen) {
   command->add_flag("--whole-groups", options->geometry.whole_groups, "One surface for each group and material of a mesh, not for each face");
   command->add_option("--only-occlude", options->geometry.only_occlude, "Surfaces or groups that hide, and have no view factors");
   command->add_option("--leave-out", options->geometry.left_out, "Surfaces or groups that neither see nor hide");
-  command->add_option("--view-of", options->view_of, "Also F.view.vtu and F.view.png: of every element the view factor to this surface or group");
+  command->add_option("--view-of", options->view_of, "Also F.view.vtu and F.view.png: of every element the view factor to this surface or group")
+      ->check([](const std::string& name) { return std::string(name.empty() ? "the name of a surface or group is expected" : ""); });
   command->add_option("--groups", options->groups, "Sum the factors of a .csv by this")->check(CLI::IsMember({"surface", "group", "material"}));
 }
 
@@ -249,7 +250,7 @@ void add_exchange(CLI::App& app, Command& chosen) {
       app, "exchange", "Net radiative exchange of grey surfaces with temperatures or heat fluxes",
       "interflect exchange data/scenes/oven.json -o out/oven --environment 293.15", exchange, options, chosen);
   add_scene(*command, options->scene);
-  command->add_option("-o,--out", options->out, "Folder for exchange.csv and exchange.json")->required();
+  command->add_option("-o,--out", options->out, "Folder for the results")->required();
   command->add_option("--environment", options->environment, "Temperature of what openings look at [K]")->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
   command->add_option("--element-size", options->settings.element_size, "Longest edge of an element [m]; default: that of solve")->check(Length());
@@ -257,6 +258,7 @@ void add_exchange(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
       ->check(CLI::Range(1e-14, 0.5))->capture_default_str();
+  command->add_flag("!--no-pictures", options->pictures, "Write no PNG");
   add_closure(*command, options->settings.closure);
   add_effort(*command, options->settings.row_tolerance, options->settings.samples, options->settings.resolution, when_no_rows);
 }

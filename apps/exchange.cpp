@@ -5,8 +5,11 @@
 
 #include "apps/commands.h"
 #include "apps/read_scene.h"
+#include "apps/solution_files.h"
+#include "apps/solved_scene.h"
 #include "apps/table.h"
 #include "core/format.h"
+#include "core/log.h"
 #include "fem/thermal_exchange.h"
 #include "results/atomic_file.h"
 #include "results/csv.h"
@@ -15,6 +18,7 @@
 #include "results/vtu.h"
 
 #ifdef INTERFLECT_WITH_VTK
+#include "apps/display_or_warning.h"
 #include "apps/element_picture.h"
 #endif
 
@@ -63,6 +67,8 @@ results::Record record_of(const ThermalExchange& exchange, const ExchangeOptions
                            .add("heat_flux", s.heat_flux)
                            .add("heat_flux_error", s.heat_flux_error)
                            .add("heat_flux_given", s.flux_given)
+                           .add("elements", static_cast<std::int64_t>(s.elements))
+                           .add("elements_without_temperature", static_cast<std::int64_t>(s.without_temperature))
                            .add("radiosity", s.radiosity)
                            .add("irradiance", s.irradiance));
   results::Record record;
@@ -71,6 +77,8 @@ results::Record record_of(const ThermalExchange& exchange, const ExchangeOptions
       .add("elements", static_cast<std::int64_t>(exchange.solution.mesh.size()))
       .add("net_flux_W", exchange.emitted)
       .add("to_environment_W", exchange.to_environment)
+      .add("settings", settings_record(options.settings, exchange.solution))
+      .add("form_factors", form_factor_record(exchange.solution))
       .add("surfaces", std::move(surfaces));
   return record;
 }
@@ -101,14 +109,25 @@ visual::Range range_of(std::span<const double> values) {
 }
 
 void write_pictures(const std::filesystem::path& folder, const scene::Scene& scene, const ThermalExchange& exchange) {
+  const auto display = display_or_warning();
+  if (!display) return;
   const mesh::ElementMesh& mesh = exchange.solution.mesh;
   const std::vector<double> temperature = of_elements(exchange, &ThermalState::temperature);
-  write_element_picture(folder / "temperature.png", scene, mesh, temperature,
+  write_element_picture(*display, folder / "temperature.png", scene, mesh, temperature,
                         {.title = "temperature [K]", .caption = {}, .range = range_of(temperature)});
-  write_element_picture(folder / "heat_flux.png", scene, mesh, of_elements(exchange, &ThermalState::heat_flux),
+  write_element_picture(*display, folder / "heat_flux.png", scene, mesh, of_elements(exchange, &ThermalState::heat_flux),
                         {.title = "net heat flux [W/m2]", .caption = {}, .map = results::ColourMap::blue_white_red});
 }
 #endif
+
+/// Warns of what it fell short of.
+void warn_of(const ThermalExchange& exchange) {
+  for (const std::string& shortfall : shortfalls_of(exchange.solution)) core::log::warning(shortfall);
+  for (const ThermalSurface& s : exchange.surfaces)
+    if (s.without_temperature > 0)
+      core::log::warning(core::format("surface '%s': from %td of its %td elements more heat is taken than reaches them: they have no temperature",
+                                      s.name.c_str(), s.without_temperature, s.elements));
+}
 
 }  // namespace
 
@@ -121,14 +140,15 @@ ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common,
   results::write_json(options.out / "exchange.json", record);
   write_fields(options.out / "exchange.vtu", found);
 #ifdef INTERFLECT_WITH_VTK
-  write_pictures(options.out, scene, found);
+  if (options.pictures) write_pictures(options.out, scene, found);
 #endif
+  warn_of(found);
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)
     std::printf("%s\nsum of Q %.6g W; to the environment %.6g W, by rays\nwritten to %s\n", table_of(found).c_str(), found.emitted, found.to_environment,
                 options.out.string().c_str());
-  return found.solution.solver.converged() ? success : not_met;
+  return shortfalls_of(found.solution).empty() ? success : not_met;
 }
 
 }  // namespace interflect::apps

@@ -72,6 +72,7 @@ struct ExchangeOptions {
   std::filesystem::path scene, out;
   fem::RadiositySettings settings;
   double environment = 0;  ///< [K]
+  bool pictures = true;
 };
 
 struct CheckOptions {

@@ -42,24 +42,6 @@ std::vector<results::CellField> fields_of(const SolvedScene& solved) {
   return fields;
 }
 
-results::Record settings_record(const fem::RadiositySettings& settings, const RadiositySolution& solution) {
-  results::Record record;
-  record.add("element_size_m", solution.element_size)
-      .add("form_factors", settings.form_factors)
-      .add("solver", settings.solver)
-      .add("solver_tolerance", settings.stopping.tolerance)
-      .add("intersector", settings.intersector)
-      .add("quadrature_tolerance", settings.quadrature_tolerance)
-      .add("row_tolerance", settings.row_tolerance)
-      .add("visibility_rays", settings.visibility_rays)
-      .add("samples", settings.samples)
-      .add("resolution", settings.resolution)
-      .add("drop_below", settings.drop_below)
-      .add("closure", settings.closure)
-      .add("max_memory_bytes", whole(settings.max_memory));
-  return record;
-}
-
 results::Record solver_record(const RadiositySolution& solution) {
   results::Record record;
   record.add("stopped", solvers::describe(solution.solver.why))
@@ -78,26 +60,6 @@ results::Record energy_record(const fem::EnergyBalance& energy, int channels) {
       .add("split_standard_error", energy.split_error, channels)
       .add("form_factor_error", energy.form_factor_error, channels)
       .add("residual", energy.residual, channels);
-  return record;
-}
-
-results::Record form_factor_record(const RadiositySolution& solution) {
-  results::Record record;
-  record.add("pairs_facing_away", solution.pairs.facing_away)
-      .add("pairs_clear", solution.pairs.clear)
-      .add("pairs_sampled", solution.pairs.sampled)
-      .add("rays", solution.pairs.rays)
-      .add("clamped", solution.pairs.clamped)
-      .add("row_sum_mean", solution.rows.mean)
-      .add("row_sum_lowest", solution.rows.lowest)
-      .add("row_sum_highest", solution.rows.highest)
-      .add("largest_row_error", solution.largest_row_error)
-      .add("tolerance_met", solution.tolerance_met)
-      .add("kept_share", solution.kept_share)
-      .add("dropped_mean", solution.mean_dropped)
-      .add("dropped_highest", solution.largest_dropped)
-      .add("closure_correction", solution.closure_correction)
-      .add("environment_mean", fem::mean_environment(solution));
   return record;
 }
 
@@ -137,6 +99,44 @@ std::string sensors_text(const SolvedScene& solved) {
 }
 
 }  // namespace
+
+results::Record settings_record(const fem::RadiositySettings& settings, const RadiositySolution& solution) {
+  results::Record record;
+  record.add("element_size_m", solution.element_size)
+      .add("form_factors", settings.form_factors)
+      .add("solver", settings.solver)
+      .add("solver_tolerance", settings.stopping.tolerance)
+      .add("intersector", settings.intersector)
+      .add("quadrature_tolerance", settings.quadrature_tolerance)
+      .add("row_tolerance", settings.row_tolerance)
+      .add("visibility_rays", settings.visibility_rays)
+      .add("samples", settings.samples)
+      .add("resolution", settings.resolution)
+      .add("drop_below", settings.drop_below)
+      .add("closure", settings.closure)
+      .add("max_memory_bytes", whole(settings.max_memory));
+  return record;
+}
+
+results::Record form_factor_record(const RadiositySolution& solution) {
+  results::Record record;
+  record.add("pairs_facing_away", solution.pairs.facing_away)
+      .add("pairs_clear", solution.pairs.clear)
+      .add("pairs_sampled", solution.pairs.sampled)
+      .add("rays", solution.pairs.rays)
+      .add("clamped", solution.pairs.clamped)
+      .add("row_sum_mean", solution.rows.mean)
+      .add("row_sum_lowest", solution.rows.lowest)
+      .add("row_sum_highest", solution.rows.highest)
+      .add("largest_row_error", solution.largest_row_error)
+      .add("tolerance_met", solution.tolerance_met)
+      .add("kept_share", solution.kept_share)
+      .add("dropped_mean", solution.mean_dropped)
+      .add("dropped_highest", solution.largest_dropped)
+      .add("closure_correction", solution.closure_correction)
+      .add("environment_mean", fem::mean_environment(solution));
+  return record;
+}
 
 results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run) {
   const RadiositySolution& solution = solved.solution;

@@ -8,6 +8,10 @@
 
 namespace interflect::apps {
 
+/// What was asked for, and what the form factors came to.
+results::Record settings_record(const fem::RadiositySettings& settings, const fem::RadiositySolution& solution);
+results::Record form_factor_record(const fem::RadiositySolution& solution);
+
 /// What summary.json says of a run: enough to repeat it and to judge it.  Whether it was stopped, and its peak memory, are as of
 /// now.
 results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run);

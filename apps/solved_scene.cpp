@@ -66,14 +66,21 @@ std::vector<std::string> warnings_of(const SolvedScene& solved) {
   if (std::abs(imbalance) - normal_95 * scene.weigh(solution.energy.split_error) > noticeable_imbalance * emitted)
     warnings.push_back("form factors lose " + core::format_percent(imbalance / emitted) +
                        " of the emitted flux: do faces coincide or lie closer than elements are long?  See interflect check");
-  if (!solution.tolerance_met)
-    warnings.push_back(core::format("some rows of form factors are less accurate than asked: sum_j |dF_ij| is up to %.1e", solution.largest_row_error));
-  if (!solution.solver.converged())
-    warnings.push_back("the solver has not converged: " + solvers::describe(solution.solver.why));
+  for (std::string& warning : shortfalls_of(solution)) warnings.push_back(std::move(warning));
   return warnings;
 }
 
 }  // namespace
+
+std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution) {
+  std::vector<std::string> warnings;
+  if (!solution.tolerance_met)
+    warnings.push_back(core::format("some rows of form factors are less accurate than asked: sum_j |dF_ij| is up to %.1e",
+                                    solution.largest_row_error));
+  if (!solution.solver.converged())
+    warnings.push_back("the solver has not converged: " + solvers::describe(solution.solver.why));
+  return warnings;
+}
 
 std::string describe(const fem::Forecast& forecast) {
   return core::format("%s elements, %s, about %s", core::format_count(static_cast<unsigned long long>(forecast.elements)).c_str(),

@@ -36,6 +36,9 @@ struct SolvedScene {
   fem::RadiosityMethod method() const { return {solution, *rays}; }
 };
 
+/// What a solution fell short of: the tolerance of its rows, that of the solver.
+std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution);
+
 /// "5 000 elements, 0.2 GB, about 40 s"
 std::string describe(const fem::Forecast& forecast);
 results::Record forecast_record(const fem::Forecast& forecast);

@@ -184,7 +184,7 @@ void print_summary(const ViewFactorOptions& options, const FactorStore& store, c
     std::printf("lost        up to %.2f %% of a row, beyond what the method sees\n", 100 * report.pairs.lost);
   if (report.pairs.clamped > 0)
     std::printf("clamped     %llu entries\n", static_cast<unsigned long long>(report.pairs.clamped));
-  std::printf("written to  %s\n", options.out.string().c_str());
+  std::printf("written to  %s%s\n", options.out.string().c_str(), options.view_of.empty() ? "" : ", .view.vtu and .view.png beside it");
 }
 
 /// What a run will need, said before it starts.
@@ -277,8 +277,8 @@ fem::ToleranceReport factors_into(const std::filesystem::path& file, const resul
 ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run) {
   if (!options.forecast_only) require_known_format(options);
   const FactorRequest request = factor_request(options);
-  std::optional<ViewOf> view;
-  if (!options.view_of.empty()) view.emplace(options.view_of, request);
+  std::optional<ViewedSurface> viewed;
+  if (!options.view_of.empty()) viewed = viewed_surface(options.view_of, request);
   const bool talk = !common.json && !common.quiet;
   if (talk) std::printf("bounding box %s\n", box_text(request.geometry.scene).c_str());
   const auto rays = raycast::make_ray_caster("embree", request.geometry.scene);
@@ -303,7 +303,7 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
   const fem::ToleranceReport report = factors_into(file, key, make, options, request, points, talk, run);
   const FactorStore store(file);
   export_factors(options, request, store);
-  if (view) view->write(options.out, store);
+  if (viewed) write_view_of(*viewed, request, store, *rays, options.out);
   const Summary summary = summary_of(store);
   if (common.json)
     std::printf("%s\n", results::json_text(record_of(options, store, summary, report)).c_str());

@@ -1,6 +1,6 @@
 #include "apps/view_of.h"
 
-#include <algorithm>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -8,7 +8,9 @@
 #include "results/vtu.h"
 
 #ifdef INTERFLECT_WITH_VTK
+#include "apps/display_or_warning.h"
 #include "apps/element_picture.h"
+#include "apps/in_view.h"
 #endif
 
 namespace interflect::apps {
@@ -18,7 +20,7 @@ constexpr std::size_t most_names = 8;  ///< in a message
 
 std::string listed(const std::vector<std::string>& names) {
   const std::set<std::string> all(names.begin(), names.end());
-  if (all.size() > most_names) return std::to_string(all.size()) + " others";
+  if (all.size() > most_names) return std::to_string(all.size());
   std::string text;
   for (const std::string& name : all) text += (text.empty() ? "" : ", ") + name;
   return text;
@@ -53,34 +55,43 @@ std::filesystem::path beside(std::filesystem::path out, const char* extension) {
 
 }  // namespace
 
-ViewOf::ViewOf(const std::string& name, const FactorRequest& request) : name_(name), request_(request) {
+ViewedSurface viewed_surface(const std::string& name, const FactorRequest& request) {
   const std::vector<std::string> groups = groups_of(request, "group");
+  ViewedSurface surface{name, {}};
   for (Index i = 0; i < request.about.size(); ++i)
     if (request.about.name[static_cast<std::size_t>(i)] == name || groups[static_cast<std::size_t>(i)] == name)
-      seen_.push_back(i);
-  if (seen_.empty())
-    throw core::InputError("--view-of " + name,
-                           "no surface or group of that name; there are: " + listed(request.about.name));
+      surface.elements.push_back(i);
+  if (surface.elements.empty())
+    throw core::InputError("--view-of " + name, "no surface or group of that name has view factors; groups: " +
+                                                    listed(groups) + "; surfaces: " + listed(request.about.name));
+  return surface;
 }
 
-void ViewOf::write(const std::filesystem::path& out, const results::FactorStore& store) const {
-  const std::size_t open = request_.elements.open;  // what masks cover is not to be seen
-  const auto of_open = [&](std::vector<double> values) {
-    values.resize(open);
+void write_view_of(const ViewedSurface& surface, const FactorRequest& request, const results::FactorStore& store,
+                   [[maybe_unused]] const raycast::RayCaster& rays, const std::filesystem::path& out) {
+  const auto patches = request.elements.seeing();  // what masks cover is not to be seen
+  const auto of_seeing = [&](std::vector<double> values) {
+    values.resize(patches.size());
     return values;
   };
-  const auto patches = request_.elements.seeing();
   const mesh::ElementMesh mesh({patches.begin(), patches.end()});
-  const Shares shares = shares_of(store, seen_);
+  const Shares shares = shares_of(store, surface.elements);
   std::vector<results::CellField> fields = results::id_fields(mesh);
-  fields.push_back(results::scalar_field("view_factor", of_open(shares.F)));
-  fields.push_back(results::scalar_field("view_factor_error", of_open(shares.error)));
-  fields.push_back(results::scalar_field("row_sum", of_open(store.row_sum())));
-  fields.push_back(results::scalar_field("row_error", of_open(store.row_error())));
+  fields.push_back(results::scalar_field("view_factor", of_seeing(shares.F)));
+  fields.push_back(results::scalar_field("view_factor_error", of_seeing(shares.error)));
+  fields.push_back(results::scalar_field("row_sum", of_seeing(store.row_sum())));
+  fields.push_back(results::scalar_field("row_error", of_seeing(store.row_error())));
   results::write_vtu(beside(out, ".view.vtu"), mesh, fields);
 #ifdef INTERFLECT_WITH_VTK
-  write_element_picture(beside(out, ".view.png"), request_.geometry.scene, mesh, of_open(shares.F),
-                        {.title = "view factor to " + name_, .caption = {}});
+  const auto display = display_or_warning();
+  if (!display) return;
+  const scene::Scene& scene = request.geometry.scene;
+  const auto camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
+  const std::vector<double> F = of_seeing(shares.F);
+  write_element_picture(*display, beside(out, ".view.png"), scene, mesh, F,
+                        {.title = "view factor to " + surface.name,
+                         .caption = {},
+                         .range = range_in_view(F, shares_in_view(rays, mesh, camera))});
 #endif
 }
 

@@ -72,6 +72,7 @@ ThermalSurface surface_of(const scene::Scene& scene, const RadiositySolution& s,
   out.name = scene.side_name(part.surface, part.side);
   out.emissivity = thermal.emissivity;
   out.flux_given = !thermal.temperature;
+  out.elements = part.count;
   error /= out.area;
   if (!out.flux_given) {
     out.heat_flux_error = out.emissivity * error;
@@ -103,6 +104,12 @@ ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySetting
     out.emitted += out.surfaces.back().area * out.surfaces.back().heat_flux;
   }
   out.elements = states_of(scene, s, environment);
+  for (std::size_t k = 0; k < out.surfaces.size(); ++k) {
+    const mesh::ElementMesh::Part& part = s.mesh.parts()[k];
+    const auto first = out.elements.begin() + part.first;
+    out.surfaces[k].without_temperature =
+        std::count_if(first, first + part.count, [](const ThermalState& state) { return std::isnan(state.temperature); });
+  }
   out.to_environment = s.energy.escaped[0] + s.energy.on_backs[0];
   return out;
 }

@@ -21,6 +21,7 @@ struct ThermalSurface : ThermalState {
   double area = 0;          ///< [m²]
   double emissivity = 0;    ///< hemispherical, total; the surface is grey: absorptance and emissivity are equal
   bool flux_given = false;  ///< else the temperature
+  Index elements = 0, without_temperature = 0;  ///< how many, and how many of which more is taken than reaches them
   /// Of what was found: estimated bound + 1.96 standard errors; 0 of what was given.
   double temperature_error = 0, heat_flux_error = 0;
 };

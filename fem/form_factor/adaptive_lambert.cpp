@@ -39,6 +39,7 @@ struct Cell {
   std::size_t corners;
   double refined = 0, error = 0;
   std::array<double, 4> part_value{};
+  double spread = 0;  ///< how much its parts would differ if they had equal areas
   double chance = 1;  ///< of its error being small by chance: many cells even it out
 
   std::span<const Vec3> ring() const { return {corner.data(), corners}; }
@@ -76,7 +77,7 @@ class Refinement {
     value_ -= worst.refined;
     error_ -= worst.error;
     for (std::size_t k = 0; const CellPart& part : four_parts(worst.ring()))
-      add({part.corner, part.corners, 0.0, 0.0, {}, chance_when_cut * worst.chance}, worst.part_value[k++]);
+      add({part.corner, part.corners, 0.0, 0.0, {}, 0.0, chance_when_cut * worst.chance}, worst.part_value[k++]);
   }
   bool within(double error) const { return error_ <= error || value_ <= 0.0; }
   double value() const { return value_; }
@@ -91,8 +92,16 @@ class Refinement {
 
  private:
   void add(Cell cell, double value) {
-    for (std::size_t k = 0; const CellPart& part : four_parts(cell.ring()))
-      cell.refined += cell.part_value[k++] = by_rule(part.ring());
+    double area = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t k = 0; const CellPart& part : four_parts(cell.ring())) {
+      const double of_part = by_rule(part.ring()), part_area = area_of_nodes();
+      cell.refined += cell.part_value[k++] = of_part;
+      if (!(part_area > 0)) continue;
+      area += part_area;
+      least = std::min(least, of_part / part_area);
+      most = std::max(most, of_part / part_area);
+    }
+    cell.spread = area > 0 ? 0.25 * area * (most - least) : 0;
     cell.error = error_of(cell, std::abs(cell.refined - value));
     value_ += cell.refined;
     error_ += cell.error;
@@ -100,10 +109,14 @@ class Refinement {
     std::push_heap(cells_.begin(), cells_.end());
   }
   double error_of(const Cell& cell, double difference) const {
-    const auto [least, most] = std::minmax_element(cell.part_value.begin(), cell.part_value.end());
-    const double spread = cell.chance * (*most - *least), s = standing(cell.ring(), inner_).ratio();
+    const double spread = cell.chance * cell.spread, s = standing(cell.ring(), inner_).ratio();
     if (!(s < rough_from)) return difference + scheme_.rough_floor * spread;
     return scheme_.smooth * difference + scheme_.smooth_floor * std::pow(s, scheme_.power) * spread;
+  }
+  double area_of_nodes() const {
+    double sum = 0;
+    for (const SurfaceNode& node : nodes_) sum += node.weight;
+    return sum;
   }
   double by_rule(std::span<const Vec3> cell) {
     nodes_.clear();

@@ -18,16 +18,16 @@ struct LambertEffort {
 /// nearly touches `outer`.
 ///
 /// The worst cell is cut first, until the errors sum to at most `tolerance` times the value. A cell's error is taken
-/// from the difference e between its rule and the sum of its parts', and from how much its parts differ, d,
-/// because e may be small by chance (less so where many cells are summed: d counts 0.3 of it with each cut):
+/// from the difference e between its rule and the sum of its parts', and from how much its parts differ for their
+/// areas, d, because e may be small by chance (less so where many cells are summed: d counts 0.3 of it with each cut):
 ///
 ///   s = (radius of the cell) / (distance of its middle from inner's outline)
 ///   smooth, s < 0.8:  c e + f s^p d,    rough:  e + g d
 ///
-/// Where the cell is smooth the quarters err by e / 64 with the rules of order 6; where inner's outline touches it
-/// the factor is of degree 0 in the distance, and they err by e / 3. Constants were fitted to 12 000 random pairs; on
-/// 10 000 others the true error is below the estimate in 99 %, and a fifth of it in the median. Below a tolerance of
-/// 1e-7 the rules are of order 9 and 12.
+/// Where the cell is smooth its quarters err by e / 64 with the rules of order 6, parts across by less; where inner's
+/// outline touches it the factor is of degree 0 in the distance, and they err by e / 3. Constants were fitted to 12 000
+/// random pairs; on 10 000 others the true error is below the estimate in 99 %, and a fifth of it in the median. Below
+/// a tolerance of 1e-7 the rules are of order 9 and 12.
 ///
 /// @param outer, inner  planar convex rings, neither with a corner behind the other's plane; outer has `normal`
 ///          [unit]

@@ -37,7 +37,8 @@ Halves halves_of_triangle(std::span<const Vec3> ring) {
     return {CellPart{{tip, on_b, on_c, tip}, 3}, CellPart{{on_b, b, c, on_c}, 4}};
   }
   const Vec3 &a = corner(most, 0), &b = corner(most, 1), &c = corner(most, 2);
-  const Vec3 foot = a + (c - a).dot(b - a) / (b - a).squaredNorm() * (b - a);
+  const double along = height > 0 ? (c - a).dot(b - a) / (b - a).squaredNorm() : 0.5;
+  const Vec3 foot = a + along * (b - a);
   return {CellPart{{a, foot, c, c}, 3}, CellPart{{foot, b, c, c}, 3}};
 }
 

@@ -19,7 +19,7 @@ using geometry::HiddenPart;
 using Blockers = std::span<const ConvexBlocker* const>;
 
 constexpr std::size_t most_cells = 20'000;
-constexpr std::size_t most_events = 24;  ///< beyond, the element is quartered first: the parts have fewer each
+constexpr std::size_t most_events = 24;  ///< beyond, the element is cut in four first: the parts have fewer each
 constexpr std::size_t most_kinks = 12;   ///< of one cell at a time
 constexpr int deepest = 2;
 constexpr int rungs = 4;
@@ -80,21 +80,6 @@ double radius_of(std::span<const Vec3> ring) {
 
 }  // namespace
 
-/// Of smooth cells errors may all have one sign; where kinks fall in their cells is as good as random.
-class HiddenExchange::Errors {
- public:
-  void add(const Cell& cell) { count(cell, 1); }
-  void take(const Cell& cell) { count(cell, -1); }
-  double total() const { return smooth_ + std::sqrt(std::max(0.0, kinked_)); }
-
- private:
-  void count(const Cell& cell, double sign) {
-    (cell.kinked ? kinked_ : smooth_) += sign * (cell.kinked ? cell.error * cell.error : cell.error);
-  }
-  double smooth_ = 0;
-  double kinked_ = 0;  ///< the sum of squares
-};
-
 /// One pair's integration over cells.
 class HiddenExchange::Pair {
  public:
@@ -119,12 +104,11 @@ class HiddenExchange::Pair {
   }
   void refine(double tolerance) {
     std::vector<Cell>& cells = work_.cells_;
-    while (error_.total() > tolerance && !cells.empty() && cells.size() < most_cells) {
+    for (std::size_t step = 1; !within(tolerance, step) && !cells.empty() && cells.size() < most_cells; ++step) {
       std::pop_heap(cells.begin(), cells.end());
       Cell worst = cells.back();
       cells.pop_back();
-      value_ -= worst.value;
-      error_.take(worst);
+      error_ -= worst.error;
       if (worst.rung + 1 < rungs && ratio(worst) <= smooth) {
         climb(worst);
         push(worst);
@@ -135,16 +119,25 @@ class HiddenExchange::Pair {
       }
     }
   }
-  /// Summed afresh: the running sums carry the rounding of what was taken out.
   HiddenIntegral result() const {
-    HiddenIntegral sum{0, 0, all_};
-    Errors errors;
-    for (const Cell& cell : work_.cells_) sum.value += cell.value, errors.add(cell);
-    sum.error = errors.total();
+    HiddenIntegral sum{0, summed_errors(), all_};
+    for (const Cell& cell : work_.cells_) sum.value += cell.value;
     return sum;
   }
 
  private:
+  /// The running sum carries the rounding of what was taken out: it is made afresh now and then, and in the end.
+  bool within(double tolerance, std::size_t step) {
+    constexpr std::size_t steps_between = 256;
+    if (error_ > tolerance && step % steps_between != 0) return false;
+    error_ = summed_errors();
+    return error_ <= tolerance;
+  }
+  double summed_errors() const {
+    double sum = 0;
+    for (const Cell& cell : work_.cells_) sum += cell.error;
+    return sum;
+  }
   std::span<const PairShadow> shadows() const { return {work_.shadows_.data(), work_.shadow_count_}; }
 
   /// A convex part between the lines, as quads and at most one triangle.
@@ -221,8 +214,7 @@ class HiddenExchange::Pair {
     return true;
   }
   void push(const Cell& cell) {
-    value_ += cell.value;
-    error_.add(cell);
+    error_ += cell.error;
     work_.cells_.push_back(cell);
     std::push_heap(work_.cells_.begin(), work_.cells_.end());
   }
@@ -264,8 +256,7 @@ class HiddenExchange::Pair {
 
   HiddenExchange& work_;
   const ElementShape &outer_, &inner_;
-  double value_ = 0;
-  Errors error_;
+  double error_ = 0;
   bool all_ = true;  ///< is hidden from all cells
 };
 

@@ -43,8 +43,7 @@ struct HiddenIntegral {
 /// corners and middles of sides it has as many on each edge is taken for smooth.  One with a kink has q = 1 and twice
 /// the error; it is cut along those lines that go through a corner of one blocker and an edge of another, and then in
 /// four (what is left are surfaces of second degree, through three edges).  The cell with the largest error goes first,
-/// until what the pair errs by, the errors of smooth cells summed and those of cells with kinks, which fall there at
-/// random, as the root of the sum of their squares, is within the tolerance.
+/// until the errors sum to the tolerance.
 ///
 /// Not shared between threads: it holds the work's memory.
 class HiddenExchange {
@@ -92,7 +91,6 @@ class HiddenExchange {
     std::span<const Vec3> ring() const { return {corner.data(), corners}; }
     friend bool operator<(const Cell& a, const Cell& b) { return a.error < b.error; }
   };
-  class Errors;
   class Pair;
 
   void prepare(std::span<const Vec3> outer, std::span<const Vec3> inner,

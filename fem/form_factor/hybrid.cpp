@@ -14,7 +14,7 @@ namespace interflect::fem {
 namespace {
 
 constexpr int side = 4;     // of the grid of rays to j, from each point
-constexpr int deepest = 3;  // times that i is quartered
+constexpr int deepest = 3;  // times that i is cut in four
 constexpr double near = 0.5;  ///< radius over distance from which on it is
 
 }  // namespace

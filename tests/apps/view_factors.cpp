@@ -41,7 +41,8 @@ TEST(ViewFactors, are_written_in_every_format_and_summed_by_group) {
   for (const char* name : {"F.h5", "F.npz", "F.mtx"})
     EXPECT_EQ(interflect({"view-factors", mesh, "-o", folder / name, "--element-size", "0.5"}).status, 0) << name;
   EXPECT_TRUE(contains(read_file(folder / "F.mtx"), "%%MatrixMarket matrix coordinate real general"));
-  ASSERT_EQ(interflect({"view-factors", mesh, "-o", folder / "G.csv", "--whole-groups", "--groups", "group"}).status, 0);
+  ASSERT_EQ(interflect({"view-factors", mesh, "-o", folder / "G.csv", "--whole-groups", "--groups", "group"}).status,
+            0);
   const std::string table = read_file(folder / "G.csv");
   EXPECT_TRUE(contains(table, "from,to,F,error")) << table;
   const auto G = entries_of(table);
@@ -57,6 +58,7 @@ TEST(ViewFactors, to_one_surface_are_drawn_with_their_errors) {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", cube);
   ASSERT_EQ(interflect({"view-factors", mesh, "-o", folder / "F.csv", "--view-of", "low"}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "F.h5"));
   const std::string vtu = read_file(folder / "F.view.vtu");
   const std::vector<double> F = values<double>(vtu, "view_factor"), error = values<double>(vtu, "view_factor_error");
   ASSERT_EQ(F.size(), 6u);
@@ -68,24 +70,29 @@ TEST(ViewFactors, to_one_surface_are_drawn_with_their_errors) {
   }
   const Outcome none = interflect({"view-factors", mesh, "-o", folder / "G.csv", "--view-of", "lamp"});
   EXPECT_EQ(none.status, 2);
-  EXPECT_TRUE(contains(none.err, "--view-of lamp: no surface or group of that name")) << none.err;
+  EXPECT_TRUE(contains(
+      none.err, "--view-of lamp: no surface or group of that name has view factors; groups: high, low; surfaces: "))
+      << none.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "G.h5"));
 }
 
-// Computed once, used by a solve: the same solution as one that computes them, to the tolerance; of another geometry they are refused.
+// Computed once, used by a solve: the same solution as one that computes them, to the tolerance; of another geometry
+// they are refused.
 TEST(ViewFactors, serve_a_solve_of_the_same_geometry_and_no_other) {
   const TemporaryFolder folder;
   const std::string factors = folder / "F.h5";
   ASSERT_EQ(interflect({"view-factors", shipped_scene("cube"), "--element-size", "0.25", "-o", factors}).status, 0);
   const auto mean_of = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> command{"solve", shipped_scene("cube"), "--element-size", "0.25", "--no-pictures", "--json", "-o", folder / "out"};
+    std::vector<std::string> command{
+        "solve", shipped_scene("cube"), "--element-size", "0.25", "--no-pictures", "--json", "-o", folder / "out"};
     command.insert(command.end(), more.begin(), more.end());
     const Outcome solve = interflect(command);
     EXPECT_EQ(solve.status, 0) << solve.err;
     return nlohmann::json::parse(solve.out).at("form_factors").at("row_sum_mean").get<double>();
   };
   EXPECT_NEAR(mean_of({"--factors", factors}), mean_of({"--form-factors", "analytic"}), 1e-4);
-  const Outcome other = interflect({"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "-o", folder / "other", "--factors", factors});
+  const Outcome other = interflect({"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "-o",
+                                    folder / "other", "--factors", factors});
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(contains(other.err, "F.h5")) << other.err;
 }
@@ -93,7 +100,8 @@ TEST(ViewFactors, serve_a_solve_of_the_same_geometry_and_no_other) {
 // What the heater gives, less what the walls take, goes into the load and out of the door.
 TEST(Exchange, of_the_oven_balances) {
   const TemporaryFolder folder;
-  const Outcome run = interflect({"exchange", shipped_scene("oven"), "-o", folder / "out", "--environment", "293.15", "--element-size", "0.2", "--json"});
+  const Outcome run = interflect({"exchange", shipped_scene("oven"), "-o", folder / "out", "--environment", "293.15",
+                                  "--element-size", "0.2", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto said = nlohmann::json::parse(run.out);
   const double net = said.at("net_flux_W"), out = said.at("to_environment_W");
@@ -105,7 +113,8 @@ TEST(Exchange, of_the_oven_balances) {
       EXPECT_GT(s.at("temperature_error"), 0);
     }
   }
-  EXPECT_TRUE(contains(read_file(folder / "out/exchange.csv"), "name,area,emissivity,temperature,temperature_error,heat_flux"));
+  EXPECT_TRUE(
+      contains(read_file(folder / "out/exchange.csv"), "name,area,emissivity,temperature,temperature_error,heat_flux"));
   const std::string vtu = read_file(folder / "out/exchange.vtu");
   const std::vector<double> T = values<double>(vtu, "temperature"), B = values<double>(vtu, "radiosity"),
                             H = values<double>(vtu, "irradiance"), q = values<double>(vtu, "heat_flux");
@@ -114,6 +123,13 @@ TEST(Exchange, of_the_oven_balances) {
     EXPECT_GT(T[i], 293);
     EXPECT_NEAR(q[i], B[i] - H[i], 1e-6 * B[i]);
   }
+  EXPECT_TRUE(said.at("form_factors").at("tolerance_met").get<bool>());
+  const Outcome rough = interflect({"exchange", shipped_scene("oven"), "-o", folder / "rough", "--element-size", "0.2",
+                                    "--no-pictures", "--form-factors", "hemisphere-rays", "--samples", "400",
+                                    "--tolerance", "1e-6", "--closure", "scaling", "--json"});
+  EXPECT_EQ(rough.status, 1);
+  EXPECT_TRUE(contains(rough.err, "less accurate than asked")) << rough.err;
+  EXPECT_GT(nlohmann::json::parse(rough.out).at("form_factors").at("closure_correction").get<double>(), 0);
   const Outcome lit = interflect({"exchange", shipped_scene("cube"), "-o", folder / "lit"});
   EXPECT_EQ(lit.status, 2);
   EXPECT_TRUE(contains(lit.err, "an emissivity with a temperature or a heat flux expected")) << lit.err;
@@ -121,7 +137,8 @@ TEST(Exchange, of_the_oven_balances) {
 
 TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
   const TemporaryFolder folder;
-  const Outcome run = interflect({"compare-form-factors", shipped_scene("cube"), "--element-size", "0.5", "-o", folder / "out", "--json"});
+  const Outcome run = interflect(
+      {"compare-form-factors", shipped_scene("cube"), "--element-size", "0.5", "-o", folder / "out", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto methods = nlohmann::json::parse(run.out).at("methods");
   std::set<std::string> names;
@@ -132,21 +149,25 @@ TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
     }
     EXPECT_GE(m.at("largest_row_error"), m.at("mean_row_error").get<double>() * (1 - 1e-12));
   }
-  EXPECT_EQ(names, (std::set<std::string>{"analytic", "area-to-area", "gauss-lambert", "global-lines", "hemicube", "hemicube-max",
-                                          "hemicube-midpoint", "hemisphere-rays", "hybrid", "single-plane"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"analytic", "area-to-area", "gauss-lambert", "global-lines", "hemicube",
+                                   "hemicube-max", "hemicube-midpoint", "hemisphere-rays", "hybrid", "single-plane"}));
   EXPECT_TRUE(contains(read_file(folder / "out/form_factors.csv"), "method,setting,seconds,"));
 }
 
 // What a stopped run has written is not computed again, and the result is that of a run that was not stopped.
 TEST(ViewFactors, of_a_stopped_run_go_on) {
   const TemporaryFolder folder;
-  const std::vector<std::string> command{"view-factors", shipped_scene("concentric_cubes"), "--element-size", "0.12", "--threads", "2"};
+  const std::vector<std::string> command{
+      "view-factors", shipped_scene("concentric_cubes"), "--element-size", "0.12", "--threads", "2"};
   const auto to = [&](const std::string& out) {
     std::vector<std::string> whole = command;
     whole.insert(whole.end(), {"-o", out});
     return whole;
   };
-  const auto some_tiles = [pattern = std::regex("form factors: [1-9][0-9]* %")](const std::string& err) { return std::regex_search(err, pattern); };
+  const auto some_tiles = [pattern = std::regex("form factors: [1-9][0-9]* %")](const std::string& err) {
+    return std::regex_search(err, pattern);
+  };
   const Outcome stopped = interflect(to(folder / "F.h5"), {.interrupt_when = some_tiles});
   EXPECT_EQ(stopped.status, 1) << stopped.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "F.h5"));

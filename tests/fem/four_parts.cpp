@@ -72,6 +72,18 @@ TEST(FourParts, of_slivers_are_a_quarter_as_long_each_time) {
     }
 }
 
+TEST(FourParts, of_what_has_no_area_are_where_it_is) {
+  const Vec3 a(1, 2, 3), b(2, 2, 3), c(4, 2, 3);
+  for (const std::vector<Vec3>& ring :
+       std::vector<std::vector<Vec3>>{{a, a, a}, {a, b, b}, {a, c, b}, {a, a, a, a}, {a, b, c, c}}) {
+    std::vector<CellPart> parts;
+    for (const CellPart& part : four_parts(ring))
+      for (const CellPart& of_it : four_parts(part.ring())) parts.push_back(of_it);
+    for (const CellPart& part : parts)
+      for (const Vec3& x : part.ring()) EXPECT_LE((x - Vec3(2.5, 2, 3)).norm(), 1.5);
+  }
+}
+
 // Strips of 1 x 0.001, 0.05 apart: quarters would need (1 / 0.05)² cells and more.
 TEST(FourParts, strips_are_integrated_along_their_length) {
   const Part low{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1e-3, 0), Vec3(0, 1e-3, 0)};

@@ -27,7 +27,9 @@ TEST(OfficeRows, sum_to_one_within_what_each_states) {
   for (Index i = 0; i < mesh.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     EXPECT_LE(report.row_errors[at], 1e-4);
-    EXPECT_NEAR(sink.K.row(i).sum() / mesh.patches()[at].area, 1, report.row_errors[at]) << i;
+    const double sum = sink.K.row(i).sum() / mesh.patches()[at].area;
+    EXPECT_NEAR(sum, 1, report.row_errors[at]) << i;
+    EXPECT_NEAR(sum, 1, 2e-5) << i;  // 9e-6 measured
   }
 }
 

@@ -67,5 +67,22 @@ TEST(Quadrature, nodes_on_a_planar_quad_integrate_its_area_and_moments_exactly) 
   }
 }
 
+// u^p v^q over the triangle is p! q! / (p + q + 2)!, twice that of its mean; over the square 1 / ((p + 1) (q + 1)).
+TEST(Quadrature, closed_rules_are_exact_to_degree_three_and_begin_in_the_middle) {
+  const auto mean = [](const Rule& rule, int p, int q) {
+    double sum = 0;
+    for (const RuleNode& node : rule) sum += node.weight * std::pow(node.u, p) * std::pow(node.v, q);
+    return sum;
+  };
+  const double factorial[] = {1, 1, 2, 6, 24, 120};
+  for (int p = 0; p <= 3; ++p)
+    for (int q = 0; p + q <= 3; ++q) {
+      EXPECT_NEAR(mean(closed_triangle_rule(), p, q), 2 * factorial[p] * factorial[q] / factorial[p + q + 2], 1e-15);
+      EXPECT_NEAR(mean(closed_quad_rule(), p, q), 1.0 / ((p + 1) * (q + 1)), 1e-15);
+    }
+  EXPECT_NEAR(closed_triangle_rule().front().u + closed_triangle_rule().front().v, 2.0 / 3, 1e-15);
+  EXPECT_EQ(closed_quad_rule().front().u + closed_quad_rule().front().v, 1);
+}
+
 }  // namespace
 }  // namespace interflect::fem
