@@ -12,8 +12,8 @@ namespace interflect::apps {
 namespace {
 
 constexpr int rays_per_side = 1024;
-constexpr double noticeable = 1e-3;        ///< part of a side's hemisphere
-constexpr std::size_t most_printed = 20;   ///< lines of a kind; the rest is counted
+constexpr double noticeable = 1e-3;       ///< part of a side's hemisphere
+constexpr std::size_t most_printed = 20;  ///< lines of a kind; the rest is counted
 
 using Kind = scene::Inspection::Finding::Kind;
 
@@ -26,8 +26,8 @@ std::string where_text(const Vec3& x) { return core::format("near (%.4g, %.4g, %
 Line line_of(const scene::Inspection::Finding& finding) {
   const bool is_area = finding.kind == Kind::duplicate_faces || finding.kind == Kind::coplanar_overlap;
   const std::string names = finding.other.empty() ? finding.surface : finding.surface + " and " + finding.other;
-  return {scene::describe(finding.kind), core::format("%s: %.4g %s, %s", names.c_str(), finding.size, is_area ? "m2" : "m",
-                                                      where_text(finding.where).c_str())};
+  return {scene::describe(finding.kind), core::format("%s: %.4g %s, %s", names.c_str(), finding.size,
+                                                      is_area ? "m2" : "m", where_text(finding.where).c_str())};
 }
 
 /// What rays see that the geometry alone does not tell: flipped walls, and openings.
@@ -36,16 +36,19 @@ void add_exposures(const scene::Scene& scene, Run& run, std::vector<Line>& lines
   const std::vector<raycast::Exposure> exposures = raycast::exposures(scene, *caster, rays_per_side, run);
   for (const raycast::Exposure& e : exposures)
     if (e.backs > noticeable)
-      lines.push_back({"backs in sight", core::format("%s sees black backs in %.1f %% of its hemisphere: is it, or what surrounds "
-                                                      "it, flipped?",
-                                                      scene.side_name(e.surface, e.side).c_str(), 100 * e.backs)});
-  const auto open = std::count_if(exposures.begin(), exposures.end(), [](const auto& e) { return e.nothing > noticeable; });
+      lines.push_back(
+          {"backs in sight", core::format("%s sees black backs in %.1f %% of its hemisphere: is it, or what surrounds "
+                                          "it, flipped?",
+                                          scene.side_name(e.surface, e.side).c_str(), 100 * e.backs)});
+  const auto open =
+      std::count_if(exposures.begin(), exposures.end(), [](const auto& e) { return e.nothing > noticeable; });
   if (open == 0) return;
-  const raycast::Exposure& widest =
-      *std::max_element(exposures.begin(), exposures.end(), [](const auto& a, const auto& b) { return a.nothing < b.nothing; });
-  lines.push_back({"opening in sight", core::format("%td of %zu sides of surfaces see out of the scene, %s in %.1f %% of its hemisphere", open,
-                                                    exposures.size(), scene.side_name(widest.surface, widest.side).c_str(),
-                                                    100 * widest.nothing)});
+  const raycast::Exposure& widest = *std::max_element(
+      exposures.begin(), exposures.end(), [](const auto& a, const auto& b) { return a.nothing < b.nothing; });
+  lines.push_back(
+      {"opening in sight",
+       core::format("%td of %zu sides of surfaces see out of the scene, %s in %.1f %% of its hemisphere", open,
+                    exposures.size(), scene.side_name(widest.surface, widest.side).c_str(), 100 * widest.nothing)});
 }
 
 std::vector<Line> findings(const scene::Scene& scene, Run& run) {
@@ -56,7 +59,8 @@ std::vector<Line> findings(const scene::Scene& scene, Run& run) {
 }
 
 bool only_rims(const std::vector<Line>& lines) {
-  return std::all_of(lines.begin(), lines.end(), [](const Line& line) { return line.kind == scene::describe(Kind::rim); });
+  return std::all_of(lines.begin(), lines.end(),
+                     [](const Line& line) { return line.kind == scene::describe(Kind::rim); });
 }
 
 void print_text(const std::vector<Line>& lines) {
@@ -70,7 +74,8 @@ void print_text(const std::vector<Line>& lines) {
   }
   if (std::any_of(lines.begin(), lines.end(), [](const Line& line) { return line.kind == scene::describe(Kind::gap); }))
     std::printf("gaps are no error in a scene that is open on purpose (docs/checks.md)\n");
-  if (only_rims(lines)) std::printf("no gaps, flipped normals, duplicate or coplanar faces, and no ray leaves the scene\n");
+  if (only_rims(lines))
+    std::printf("no gaps, flipped normals, duplicate or coplanar faces, and no ray leaves the scene\n");
 }
 
 results::Record record_of(const scene::Scene& scene, const std::vector<Line>& lines) {

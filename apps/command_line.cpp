@@ -87,10 +87,12 @@ struct Seed : CLI::Validator {
 };
 
 void add_common(CLI::App& app, CommonOptions& common) {
-  app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")->check(Seed())
+  app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")
+      ->check(Seed())
       ->capture_default_str();
   app.add_option("--threads", common.threads, "Threads to use (0: all); results do not depend on it")
-      ->check(CLI::Range(0, 1024))->capture_default_str();
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   app.add_flag("--json", common.json, "Print the result as one JSON object");
   app.add_flag("-q,--quiet", common.quiet, "No progress and no messages but errors");
   app.add_flag("-v,--verbose", common.verbose, "Say more");
@@ -103,51 +105,79 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
 constexpr const char* when_no_rows = "none: --quadrature-tolerance";
 
 /// How much a form-factor method does; `when_0` is what a tolerance of 0 means, where that is the default.
-void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples, int& resolution, const std::string& when_0 = "") {
-  CLI::Option* tolerance = command.add_option("--tolerance", row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
-                               ->check(CLI::Range(1e-9, 0.5))->capture_default_str();
+void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples, int& resolution,
+                const std::string& when_0 = "") {
+  CLI::Option* tolerance =
+      command.add_option("--tolerance", row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
+          ->check(CLI::Range(1e-9, 0.5))
+          ->capture_default_str();
   if (!when_0.empty()) tolerance->default_str(when_0);
-  command.add_option("--samples", samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
+  command
+      .add_option("--samples", samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
       ->capture_default_str();
-  command.add_option("--resolution", resolution, "Cells across a hemicube or a plane")->check(CLI::Range(2, 8192))
+  command.add_option("--resolution", resolution, "Cells across a hemicube or a plane")
+      ->check(CLI::Range(2, 8192))
       ->capture_default_str();
 }
 
 void add_closure(CLI::App& command, std::string& closure) {
   std::vector<std::string> names = fem::closure_names();
   names.emplace_back("none");
-  command.add_option("--closure", closure, "Change the form factors least so that rows, with an open scene's environment, add up to 1")
-      ->check(CLI::IsMember(names))->capture_default_str();
-  command.add_flag_callback("--restore-closure", [&closure] { closure = "scaling"; }, "The same as --closure scaling");
+  command
+      .add_option("--closure", closure,
+                  "Change the form factors least so that rows, with an open scene's environment, add up to 1")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  command.add_flag_callback(
+      "--restore-closure", [&closure] { closure = "scaling"; }, "The same as --closure scaling");
 }
 
 void add_radiosity(CLI::App& command, SolveOptions& options) {
   fem::RadiositySettings& s = options.settings;
   CLI::Option* out = command.add_option("-o,--out", options.out, "Folder for the results")->required();
-  command.add_option("--element-size", s.element_size, "Longest edge of an element [m]; default: for about 2 500 elements, more where small surfaces each need some")
+  command
+      .add_option(
+          "--element-size", s.element_size,
+          "Longest edge of an element [m]; default: for about 2 500 elements, more where small surfaces each need some")
       ->check(Length());
-  command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")->transform(Memory())
+  command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")
+      ->transform(Memory())
       ->default_str(core::format_bytes(s.max_memory));
-  command.add_option("--form-factors", s.form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
+  command.add_option("--form-factors", s.form_factors, "Form-factor method")
+      ->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
-  command.add_option("--factors", options.factors, "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
+  command.add_option(
+      "--factors", options.factors,
+      "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
   command.add_option("--visibility-rays", s.visibility_rays, "Rays for a pair of elements that something may hide")
-      ->check(CLI::Range(4, 65536))->capture_default_str();
+      ->check(CLI::Range(4, 65536))
+      ->capture_default_str();
   command.add_option("--quadrature-tolerance", s.quadrature_tolerance, "Relative error of an unoccluded form factor")
-      ->check(CLI::Range(1e-14, 0.5))->capture_default_str();
-  command.add_option("--solver", s.solver, "Linear solver")->check(CLI::IsMember(solvers::solver_names()))->capture_default_str();
+      ->check(CLI::Range(1e-14, 0.5))
+      ->capture_default_str();
+  command.add_option("--solver", s.solver, "Linear solver")
+      ->check(CLI::IsMember(solvers::solver_names()))
+      ->capture_default_str();
   command.add_option("--solver-tolerance", s.stopping.tolerance, "Relative residual at which it stops")
-      ->check(CLI::Range(1e-15, 0.1))->capture_default_str();
+      ->check(CLI::Range(1e-15, 0.1))
+      ->capture_default_str();
   command.add_option("--intersector", s.intersector, "Ray caster; brute is slow, double precision, for checking")
-      ->check(CLI::IsMember(raycast::ray_caster_names()))->capture_default_str();
+      ->check(CLI::IsMember(raycast::ray_caster_names()))
+      ->capture_default_str();
   add_closure(command, s.closure);
-  command.add_option("--drop-below", s.drop_below, "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
-      ->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  command
+      .add_option("--drop-below", s.drop_below,
+                  "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   add_effort(command, s.row_tolerance, s.samples, s.resolution, when_no_rows);
-  command.add_flag_callback("--forecast", [&options, out] {
-    options.forecast_only = true;
-    out->required(false);
-  }, "Say what it would need, and stop: no --out is needed");
+  command.add_flag_callback(
+      "--forecast",
+      [&options, out] {
+        options.forecast_only = true;
+        out->required(false);
+      },
+      "Say what it would need, and stop: no --out is needed");
   command.add_flag("!--no-pictures", options.pictures, "Write no PNG");
 }
 
@@ -181,65 +211,98 @@ void add_validate(CLI::App& app, Command& chosen) {
   add_scene(*command, options->solve.scene);
   add_radiosity(*command, options->solve);
   command->add_option("--accuracy", options->accuracy, "Relative standard error of each traced value, such as 1%")
-      ->transform(Fraction())->default_str("1%");
-  command->add_option("--elements", options->elements, "Elements to judge, a stratified choice")->check(CLI::Range(1, 100000000))
+      ->transform(Fraction())
+      ->default_str("1%");
+  command->add_option("--elements", options->elements, "Elements to judge, a stratified choice")
+      ->check(CLI::Range(1, 100000000))
       ->capture_default_str();
   command->add_flag("--all", options->all_elements, "Judge every element");
   command->add_option("--picture-spp", options->picture_samples, "Samples per pixel of the traced picture")
-      ->check(CLI::Range(1, 1 << 20))->capture_default_str();
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
 }
 
 void add_trace(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<TraceOptions>();
   CLI::App* command = add_command<TraceOptions>(
       app, "trace", "A picture by path tracing",
-      core::format("interflect trace %s --camera front --spp 256 -o cornell.exr", example_scene), trace, options, chosen);
+      core::format("interflect trace %s --camera front --spp 256 -o cornell.exr", example_scene), trace, options,
+      chosen);
   add_scene(*command, options->scene);
   command->add_option("--camera", options->camera, "Camera of the scene; default: its first");
-  command->add_option("--spp", options->samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24))->capture_default_str();
-  command->add_option("-o,--out", options->image, "Picture to write: .exr (radiance, with standard errors) or .png; the other is "
-                      "written beside it")->required();
+  command->add_option("--spp", options->samples, "Samples per pixel")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
+  command
+      ->add_option("-o,--out", options->image,
+                   "Picture to write: .exr (radiance, with standard errors) or .png; the other is "
+                   "written beside it")
+      ->required();
   command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv");
   command->add_option("--accuracy", options->accuracy, "Relative standard error of those estimates, such as 1%")
-      ->transform(Fraction())->default_str("1%");
-  command->add_option("--intersector", options->intersector, "Ray caster")->check(CLI::IsMember(raycast::ray_caster_names()))
+      ->transform(Fraction())
+      ->default_str("1%");
+  command->add_option("--intersector", options->intersector, "Ray caster")
+      ->check(CLI::IsMember(raycast::ray_caster_names()))
       ->capture_default_str();
 }
 
 void add_view_factors(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ViewFactorOptions>();
   CLI::App* command = add_command<ViewFactorOptions>(
-      app, "view-factors", "View factors of a mesh or scene, with an error on each", core::format("interflect view-factors %s -o F.h5 --element-size 0.1", example_scene),
-      view_factors, options, chosen);
-  command->add_option("FILE", options->input, "OBJ, PLY, STL, glTF, VTU, VTP, View3D's .vs3, or a scene (.json)")->required();
-  CLI::Option* out = command->add_option("-o,--out", options->out, "F.h5, F.npz, F.mtx or F.csv; the others are made from an .h5 beside them")->required();
-  command->add_flag_callback("--forecast", [forecast = &options->forecast_only, out] {
-    *forecast = true;
-    out->required(false);
-  }, "Say what it would need, and stop: no --out is needed");
+      app, "view-factors", "View factors of a mesh or scene, with an error on each",
+      core::format("interflect view-factors %s -o F.h5 --element-size 0.1", example_scene), view_factors, options,
+      chosen);
+  command->add_option("FILE", options->input, "OBJ, PLY, STL, glTF, VTU, VTP, View3D's .vs3, or a scene (.json)")
+      ->required();
+  CLI::Option* out = command
+                         ->add_option("-o,--out", options->out,
+                                      "F.h5, F.npz, F.mtx or F.csv; the others are made from an .h5 beside them")
+                         ->required();
+  command->add_flag_callback(
+      "--forecast",
+      [forecast = &options->forecast_only, out] {
+        *forecast = true;
+        out->required(false);
+      },
+      "Say what it would need, and stop: no --out is needed");
   add_effort(*command, options->tolerance, options->samples, options->resolution);
-  command->add_option("--form-factors", options->form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
+  command->add_option("--form-factors", options->form_factors, "Form-factor method")
+      ->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
-  command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: one element a face")->check(Length());
+  command
+      ->add_option("--element-size", options->element_size,
+                   "Longest edge of an element [m]; default: one element a face")
+      ->check(Length());
   command->add_option("--units", options->geometry.unit, "Of the file's coordinates: m, cm, mm, ft, in");
   command->add_flag("--two-sided", options->geometry.two_sided, "Backs of faces have view factors too: thin plates");
-  command->add_flag("--whole-groups", options->geometry.whole_groups, "One surface for each group and material of a mesh, not for each face");
-  command->add_option("--only-occlude", options->geometry.only_occlude, "Surfaces or groups that hide, and have no view factors");
+  command->add_flag("--whole-groups", options->geometry.whole_groups,
+                    "One surface for each group and material of a mesh, not for each face");
+  command->add_option("--only-occlude", options->geometry.only_occlude,
+                      "Surfaces or groups that hide, and have no view factors");
   command->add_option("--leave-out", options->geometry.left_out, "Surfaces or groups that neither see nor hide");
-  command->add_option("--view-of", options->view_of, "Also F.view.vtu and F.view.png: of every element the view factor to this surface or group")
-      ->check([](const std::string& name) { return std::string(name.empty() ? "the name of a surface or group is expected" : ""); });
-  command->add_option("--groups", options->groups, "Sum the factors of a .csv by this")->check(CLI::IsMember({"surface", "group", "material"}));
+  command
+      ->add_option("--view-of", options->view_of,
+                   "Also F.view.vtu and F.view.png: of every element the view factor to this surface or group")
+      ->check([](const std::string& name) {
+        return std::string(name.empty() ? "the name of a surface or group is expected" : "");
+      });
+  command->add_option("--groups", options->groups, "Sum the factors of a .csv by this")
+      ->check(CLI::IsMember({"surface", "group", "material"}));
 }
 
 void add_compare_form_factors(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<CompareFormFactorsOptions>();
   CLI::App* command = add_command<CompareFormFactorsOptions>(
       app, "compare-form-factors", "Every form-factor method on one scene: error against the exact one, time, energy",
-      core::format("interflect compare-form-factors %s --element-size 0.15 -o out/methods", example_scene), compare_form_factors, options, chosen);
+      core::format("interflect compare-form-factors %s --element-size 0.15 -o out/methods", example_scene),
+      compare_form_factors, options, chosen);
   add_scene(*command, options->scene);
   command->add_option("-o,--out", options->out, "Folder for the table and the plot")->required();
-  command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: that of solve")->check(Length());
-  command->add_option("--tolerance", options->tolerance, "Largest sum of a row's errors in the reference")->check(CLI::Range(1e-9, 0.5))
+  command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: that of solve")
+      ->check(Length());
+  command->add_option("--tolerance", options->tolerance, "Largest sum of a row's errors in the reference")
+      ->check(CLI::Range(1e-9, 0.5))
       ->capture_default_str();
 }
 
@@ -251,16 +314,24 @@ void add_exchange(CLI::App& app, Command& chosen) {
       "interflect exchange data/scenes/oven.json -o out/oven --environment 293.15", exchange, options, chosen);
   add_scene(*command, options->scene);
   command->add_option("-o,--out", options->out, "Folder for the results")->required();
-  command->add_option("--environment", options->environment, "Temperature of what openings look at [K]")->check(CLI::Range(0.0, 1e5))
+  command->add_option("--environment", options->environment, "Temperature of what openings look at [K]")
+      ->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
-  command->add_option("--element-size", options->settings.element_size, "Longest edge of an element [m]; default: that of solve")->check(Length());
-  command->add_option("--form-factors", options->settings.form_factors, "Form-factor method")->check(CLI::IsMember(fem::form_factor_names()))
+  command
+      ->add_option("--element-size", options->settings.element_size,
+                   "Longest edge of an element [m]; default: that of solve")
+      ->check(Length());
+  command->add_option("--form-factors", options->settings.form_factors, "Form-factor method")
+      ->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
-  command->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
-      ->check(CLI::Range(1e-14, 0.5))->capture_default_str();
+  command
+      ->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
+      ->check(CLI::Range(1e-14, 0.5))
+      ->capture_default_str();
   command->add_flag("!--no-pictures", options->pictures, "Write no PNG");
   add_closure(*command, options->settings.closure);
-  add_effort(*command, options->settings.row_tolerance, options->settings.samples, options->settings.resolution, when_no_rows);
+  add_effort(*command, options->settings.row_tolerance, options->settings.samples, options->settings.resolution,
+             when_no_rows);
 }
 
 void add_info(CLI::App& app, Command& chosen) {
@@ -279,17 +350,19 @@ void add_check(CLI::App& app, Command& chosen) {
 
 std::string version_text() {
   const core::BuildInfo build = core::build_info();
-  return core::format("interflect %s (%s, up to %d channels)\nGPL-3.0-or-later, without any warranty", build.version.c_str(),
-                      build.compiler.c_str(), build.spectrum_capacity);
+  return core::format("interflect %s (%s, up to %d channels)\nGPL-3.0-or-later, without any warranty",
+                      build.version.c_str(), build.compiler.c_str(), build.spectrum_capacity);
 }
 
-/// What is wrong, in the words of who typed it: the parser's own name neither a mistyped command nor, first, a mistyped option.
+/// What is wrong, in the words of who typed it: the parser's own name neither a mistyped command nor, first, a mistyped
+/// option.
 std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
   const auto given = app.get_subcommands();
   const std::string command = given.empty() ? "interflect" : "interflect " + given.front()->get_name();
   const std::vector<std::string> left = app.remaining(true);
   const auto is_option = [](const std::string& word) { return word.rfind('-', 0) == 0; };
-  const auto option = std::find_if(left.begin(), left.end(), is_option), word = std::find_if_not(left.begin(), left.end(), is_option);
+  const auto option = std::find_if(left.begin(), left.end(), is_option),
+             word = std::find_if_not(left.begin(), left.end(), is_option);
   std::string what = error.what();
   if (given.empty()) {
     std::string names;
@@ -309,9 +382,11 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.fallthrough();
-  app.footer(core::format("Start with:\n  interflect validate %s -o out/cornell\n"
-                          "Exit status: 0 done, 1 done but not as hoped (not validated, findings), 2 bad input.\n"
-                          "Each command has its own --help with an example.", example_scene));
+  app.footer(
+      core::format("Start with:\n  interflect validate %s -o out/cornell\n"
+                   "Exit status: 0 done, 1 done but not as hoped (not validated, findings), 2 bad input.\n"
+                   "Each command has its own --help with an example.",
+                   example_scene));
   add_common(app, command.common);
   add_solve(app, command);
   add_validate(app, command);

@@ -8,7 +8,7 @@ namespace interflect::apps {
 /// What a command ended with: the program's exit status.  Bad input throws core::InputError, which is 2.
 enum ExitStatus : int {
   success = 0,
-  not_met = 1,    ///< it ran, and the answer is no: not validated, findings, not converged, stopped early
+  not_met = 1,  ///< it ran, and the answer is no: not validated, findings, not converged, stopped early
   bad_input = 2
 };
 

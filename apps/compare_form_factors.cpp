@@ -7,8 +7,8 @@
 #include "core/format.h"
 #include "fem/method_comparison.h"
 #include "fem/radiosity.h"
-#include "results/csv.h"
 #include "results/atomic_file.h"
+#include "results/csv.h"
 #include "results/output_directory.h"
 #include "results/record.h"
 #ifdef INTERFLECT_WITH_VTK
@@ -23,7 +23,8 @@ using fem::MethodScore;
 
 std::string csv_of(const std::vector<MethodScore>& scores) {
   results::Csv csv;
-  for (const char* heading : {"method", "setting", "seconds", "largest_row_error", "mean_row_error", "stated_row_error", "energy_error"})
+  for (const char* heading :
+       {"method", "setting", "seconds", "largest_row_error", "mean_row_error", "stated_row_error", "energy_error"})
     csv.text(heading);
   csv.end_line();
   for (const MethodScore& s : scores) {
@@ -37,7 +38,8 @@ std::string table_of(const std::vector<MethodScore>& scores) {
   Table table({"method", "setting", "time s", "largest row error", "mean", "stated", "energy"});
   for (const MethodScore& s : scores)
     table.add({s.method, s.setting, core::format("%.3g", s.seconds), core::format("%.2g", s.largest_row_error),
-               core::format("%.2g", s.mean_row_error), core::format("%.2g", s.stated_row_error), core::format("%.2g", s.energy_error)});
+               core::format("%.2g", s.mean_row_error), core::format("%.2g", s.stated_row_error),
+               core::format("%.2g", s.energy_error)});
   return table.text();
 }
 
@@ -79,15 +81,19 @@ ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const 
   const mesh::ElementMesh mesh = fem::elements_of(scene, settings);
   const results::OutputDirectory folder(options.out);
   const bool talk = !common.json && !common.quiet;
-  if (talk) std::printf("%s elements, bounding box %s\n", core::format_count(static_cast<unsigned long long>(mesh.size())).c_str(), box_text(scene).c_str());
+  if (talk)
+    std::printf("%s elements, bounding box %s\n",
+                core::format_count(static_cast<unsigned long long>(mesh.size())).c_str(), box_text(scene).c_str());
   std::fflush(stdout);
   const auto rays = raycast::make_ray_caster("embree", scene);
   const auto told = [&](const MethodScore& s) {
     if (!talk) return;
-    std::printf("%s, %s: %.3g s, mean row error %.2g\n", s.method.c_str(), s.setting.c_str(), s.seconds, s.mean_row_error);
+    std::printf("%s, %s: %.3g s, mean row error %.2g\n", s.method.c_str(), s.setting.c_str(), s.seconds,
+                s.mean_row_error);
     std::fflush(stdout);
   };
-  const std::vector<MethodScore> scores = fem::compare_methods({scene, mesh.patches(), *rays, run.seed}, options.tolerance, run, told);
+  const std::vector<MethodScore> scores =
+      fem::compare_methods({scene, mesh.patches(), *rays, run.seed}, options.tolerance, run, told);
   results::write_atomically(options.out / "form_factors.csv", csv_of(scores));
 #ifdef INTERFLECT_WITH_VTK
   write_plot(options.out / "form_factors.png", scores);

@@ -31,12 +31,17 @@ using fem::ThermalSurface;
 
 std::string csv_of(const ThermalExchange& exchange) {
   results::Csv csv;
-  for (const char* heading : {"name", "area", "emissivity", "temperature", "temperature_error", "heat_flux", "heat_flux_error", "flux", "radiosity",
-                              "irradiance"})
+  for (const char* heading : {"name", "area", "emissivity", "temperature", "temperature_error", "heat_flux",
+                              "heat_flux_error", "flux", "radiosity", "irradiance"})
     csv.text(heading);
   csv.end_line();
   for (const ThermalSurface& s : exchange.surfaces) {
-    csv.text(s.name).number(s.area).number(s.emissivity).number(s.temperature).number(s.temperature_error).number(s.heat_flux);
+    csv.text(s.name)
+        .number(s.area)
+        .number(s.emissivity)
+        .number(s.temperature)
+        .number(s.temperature_error)
+        .number(s.heat_flux);
     csv.number(s.heat_flux_error).number(s.heat_flux * s.area).number(s.radiosity).number(s.irradiance).end_line();
   }
   return csv.str();
@@ -50,7 +55,8 @@ std::string with_error(double value, double error, bool found) {
 std::string table_of(const ThermalExchange& exchange) {
   Table table({"surface", "area m2", "emissivity", "T K", "q W/m2", "Q W"});
   for (const ThermalSurface& s : exchange.surfaces)
-    table.add({s.name, core::format("%.4g", s.area), core::format("%.4g", s.emissivity), with_error(s.temperature, s.temperature_error, s.flux_given),
+    table.add({s.name, core::format("%.4g", s.area), core::format("%.4g", s.emissivity),
+               with_error(s.temperature, s.temperature_error, s.flux_given),
                with_error(s.heat_flux, s.heat_flux_error, !s.flux_given), core::format("%.6g", s.heat_flux * s.area)});
   return table.text();
 }
@@ -115,7 +121,8 @@ void write_pictures(const std::filesystem::path& folder, const scene::Scene& sce
   const std::vector<double> temperature = of_elements(exchange, &ThermalState::temperature);
   write_element_picture(*display, folder / "temperature.png", scene, mesh, temperature,
                         {.title = "temperature [K]", .caption = {}, .range = range_of(temperature)});
-  write_element_picture(*display, folder / "heat_flux.png", scene, mesh, of_elements(exchange, &ThermalState::heat_flux),
+  write_element_picture(*display, folder / "heat_flux.png", scene, mesh,
+                        of_elements(exchange, &ThermalState::heat_flux),
                         {.title = "net heat flux [W/m2]", .caption = {}, .map = results::ColourMap::blue_white_red});
 }
 #endif
@@ -125,8 +132,9 @@ void warn_of(const ThermalExchange& exchange) {
   for (const std::string& shortfall : shortfalls_of(exchange.solution)) core::log::warning(shortfall);
   for (const ThermalSurface& s : exchange.surfaces)
     if (s.without_temperature > 0)
-      core::log::warning(core::format("surface '%s': from %td of its %td elements more heat is taken than reaches them: they have no temperature",
-                                      s.name.c_str(), s.without_temperature, s.elements));
+      core::log::warning(core::format(
+          "surface '%s': from %td of its %td elements more heat is taken than reaches them: they have no temperature",
+          s.name.c_str(), s.without_temperature, s.elements));
 }
 
 }  // namespace
@@ -146,8 +154,8 @@ ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common,
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)
-    std::printf("%s\nsum of Q %.6g W; to the environment %.6g W, by rays\nwritten to %s\n", table_of(found).c_str(), found.emitted, found.to_environment,
-                options.out.string().c_str());
+    std::printf("%s\nsum of Q %.6g W; to the environment %.6g W, by rays\nwritten to %s\n", table_of(found).c_str(),
+                found.emitted, found.to_environment, options.out.string().c_str());
   return shortfalls_of(found.solution).empty() ? success : not_met;
 }
 

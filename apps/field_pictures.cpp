@@ -38,9 +38,11 @@ core::Image irradiance_picture(const visual::Display& display, const SolvedScene
   std::vector<double> values;
   for (const Spectrum& H : solved.solution.irradiance) values.push_back(solved.scene.weigh(H));
   const bool photometric = solved.scene.quantity == scene::Quantity::photometric;
-  const std::string title = std::string(photometric ? "illuminance [" : "irradiance [") + solved.scene.irradiance_unit() + "]";
-  return visual::false_colour(display, solved.scene, solved.solution.mesh, values,
-                              {.title = title, .caption = {}, .range = range_in_view(values, shares), .camera = camera});
+  const std::string title =
+      std::string(photometric ? "illuminance [" : "irradiance [") + solved.scene.irradiance_unit() + "]";
+  return visual::false_colour(
+      display, solved.scene, solved.solution.mesh, values,
+      {.title = title, .caption = {}, .range = range_in_view(values, shares), .camera = camera});
 }
 
 }  // namespace
@@ -53,7 +55,8 @@ void write_field_pictures(const SolvedScene& solved, const std::filesystem::path
   for (std::size_t k = 0; k < cameras.size(); ++k) {
     const std::vector<double> shares = shares_in_view(*solved.rays, solved.solution.mesh, cameras[k]);
     results::write_png(folder / picture_file("radiosity", k), radiosity_picture(*display, solved, cameras[k], shares));
-    results::write_png(folder / picture_file("irradiance", k), irradiance_picture(*display, solved, cameras[k], shares));
+    results::write_png(folder / picture_file("irradiance", k),
+                       irradiance_picture(*display, solved, cameras[k], shares));
   }
 }
 

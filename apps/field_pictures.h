@@ -6,8 +6,8 @@
 
 namespace interflect::apps {
 
-/// radiosity.png (as an eye would see it) and irradiance.png (false colour, legend in lx or W/m²) from the scene's first camera, or
-/// from outside where it has none; where no display can be had, a warning and no pictures.
+/// radiosity.png (as an eye would see it) and irradiance.png (false colour, legend in lx or W/m²) from the scene's
+/// first camera, or from outside where it has none; where no display can be had, a warning and no pictures.
 void write_field_pictures(const SolvedScene& solved, const std::filesystem::path& folder);
 
 }  // namespace interflect::apps

@@ -26,8 +26,8 @@ const char* sides_text(scene::Sides sides) { return sides == scene::Sides::both 
 std::string closedness_text(const scene::Inspection& inspection) {
   if (inspection.closed()) return "closed";
   const bool gaps = inspection.has(scene::Inspection::Finding::Kind::gap);
-  return core::format("%s: %.4g m of edges without a neighbour", gaps ? "open" : "no gaps, but rims of two-sided surfaces",
-                      inspection.open_edge_length);
+  return core::format("%s: %.4g m of edges without a neighbour",
+                      gaps ? "open" : "no gaps, but rims of two-sided surfaces", inspection.open_edge_length);
 }
 
 std::string surfaces_text(const scene::Scene& scene) {
@@ -51,8 +51,9 @@ std::string emitters_text(const scene::Scene& scene) {
       for (const scene::Facet& facet : scene.facets_of(id)) facing += facet.area * facet.normal;
       facing = (side == scene::Side::front ? 1 : -1) / scene.area(id) * facing;
       facing = (1e3 * facing).array().round() / 1e3 + 0.0;  // no "-0"
-      text += core::format("emitter        %s: %.4g m2, %.6g %s, faces (%.3g, %.3g, %.3g)\n", scene.side_name(id, side).c_str(),
-                           scene.area(id), scene.weigh(exitance) * scene.area(id), scene.flux_unit(), facing.x(), facing.y(), facing.z());
+      text += core::format("emitter        %s: %.4g m2, %.6g %s, faces (%.3g, %.3g, %.3g)\n",
+                           scene.side_name(id, side).c_str(), scene.area(id), scene.weigh(exitance) * scene.area(id),
+                           scene.flux_unit(), facing.x(), facing.y(), facing.z());
     }
   if (count > most) text += core::format("               and %zu more emitters\n", count - most);
   return text;
@@ -62,15 +63,16 @@ std::string materials_text(const scene::Scene& scene) {
   const bool photometric = scene.quantity == scene::Quantity::photometric;
   Table table({"material", "reflectance", photometric ? "exitance lm/m2" : "exitance W/m2", "sides"});
   for (const scene::Material& m : scene.materials)
-    table.add({m.name, spectrum_text(m.reflectance, scene.channel_count()), spectrum_text(m.exitance, scene.channel_count()),
-               sides_text(m.sides)});
+    table.add({m.name, spectrum_text(m.reflectance, scene.channel_count()),
+               spectrum_text(m.exitance, scene.channel_count()), sides_text(m.sides)});
   return table.text();
 }
 
 void print_text(const scene::Scene& scene, const scene::Inspection& inspection) {
   std::string channels;
   for (int c = 0; c < scene.channel_count(); ++c)
-    channels += core::format("%s%s (weight %.4g)", c > 0 ? ", " : "", scene.channels[static_cast<std::size_t>(c)].c_str(), scene.weights[c]);
+    channels += core::format("%s%s (weight %.4g)", c > 0 ? ", " : "",
+                             scene.channels[static_cast<std::size_t>(c)].c_str(), scene.weights[c]);
   std::printf("%s\n%s\n", surfaces_text(scene).c_str(), materials_text(scene).c_str());
   double area = 0;
   for (scene::SurfaceId id : scene.surface_ids()) area += scene.area(id);

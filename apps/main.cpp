@@ -23,8 +23,9 @@ int run(int argc, char** argv) {
   const std::optional<apps::Command> command = apps::parse_command_line(argc, argv);
   if (!command) return apps::success;
   const apps::CommonOptions& common = command->common;
-  core::log::set_level(common.quiet ? core::log::Level::quiet
-                                    : common.verbose ? core::log::Level::debug : core::log::Level::info);
+  core::log::set_level(common.quiet     ? core::log::Level::quiet
+                       : common.verbose ? core::log::Level::debug
+                                        : core::log::Level::info);
   apps::Session session(common);
   return command->execute(common, session.run());
 }

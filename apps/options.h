@@ -30,10 +30,10 @@ struct SolveOptions {
 
 struct ValidateOptions {
   SolveOptions solve;
-  double accuracy = 0.01;      ///< relative standard error asked of each traced value
+  double accuracy = 0.01;  ///< relative standard error asked of each traced value
   bool all_elements = false;
-  int elements = 500;          ///< judged, when not all
-  int picture_samples = 64;    ///< per pixel of the traced picture
+  int elements = 500;        ///< judged, when not all
+  int picture_samples = 64;  ///< per pixel of the traced picture
 };
 
 struct TraceOptions {
@@ -53,19 +53,19 @@ struct ViewFactorOptions {
   std::filesystem::path input, out;
   scene::GeometryOptions geometry;
   std::string form_factors = "analytic";
-  double tolerance = 1e-4;   ///< on the largest row's sum of errors
-  double element_size = 0;   ///< longest edge [m]; 0: one element a face
+  double tolerance = 1e-4;  ///< on the largest row's sum of errors
+  double element_size = 0;  ///< longest edge [m]; 0: one element a face
   int visibility_rays = 16, resolution = 256;
   std::uint64_t samples = 0;
-  std::string groups;        ///< what the factors of a .csv are summed by; empty: by nothing
-  std::string view_of;       ///< a surface whose share of every element's view is drawn; empty: none
+  std::string groups;   ///< what the factors of a .csv are summed by; empty: by nothing
+  std::string view_of;  ///< a surface whose share of every element's view is drawn; empty: none
   bool forecast_only = false;
 };
 
 struct CompareFormFactorsOptions {
   std::filesystem::path scene, out;
-  double element_size = 0;   ///< 0: as a solve has it
-  double tolerance = 1e-4;   ///< of the reference's rows
+  double element_size = 0;  ///< 0: as a solve has it
+  double tolerance = 1e-4;  ///< of the reference's rows
 };
 
 struct ExchangeOptions {

@@ -25,7 +25,9 @@ core::Image picture_of(const measure::Method& method, const scene::Scene& scene,
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
       for (int c = 0; c < scene.channel_count(); ++c)
-        image.at(x, y, c) = static_cast<float>(found[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)].value[c]);
+        image.at(x, y, c) = static_cast<float>(
+            found[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)]
+                .value[c]);
   return image;
 }
 
@@ -49,8 +51,10 @@ void write_comparisons(const SolvedScene& solved, const ValidateOptions& options
     run.throw_if_stopped("pictures");
     const core::Image fem = picture_of(solved.method(), solved.scene, {c}, run);
     const auto samples = static_cast<std::uint64_t>(options.picture_samples);
-    const montecarlo::Rendering traced = montecarlo::render(solved.scene, {c}, samples, run, options.solve.settings.intersector);
-    const auto panels = results::comparison_panels(solved.scene, fem, traced.radiance, traced.standard_error, difference_scale);
+    const montecarlo::Rendering traced =
+        montecarlo::render(solved.scene, {c}, samples, run, options.solve.settings.intersector);
+    const auto panels =
+        results::comparison_panels(solved.scene, fem, traced.radiance, traced.standard_error, difference_scale);
     results::write_png(options.solve.out / picture_file("validation", c), beside_each_other(panels, traced.samples));
   }
 } catch (const core::Interrupted&) {

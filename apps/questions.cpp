@@ -24,7 +24,12 @@ void ask_surfaces(const scene::Scene& scene, const mesh::ElementMesh& mesh, Ques
     double area = 0;
     for (const scene::SurfacePatch& patch : patches) area += patch.area;
     questions.asked.emplace_back(measure::Flux{{patches.begin(), patches.end()}});
-    questions.judged.push_back({.name = name, .kind = Judged::Kind::surface, .area = area, .emitting = emitting, .fem = {}, .mc = {},
+    questions.judged.push_back({.name = name,
+                                .kind = Judged::Kind::surface,
+                                .area = area,
+                                .emitting = emitting,
+                                .fem = {},
+                                .mc = {},
                                 .group = name});
   }
 }
@@ -38,17 +43,27 @@ void ask_elements(const scene::Scene& scene, const mesh::ElementMesh& mesh, std:
   for (const validation::ChosenElement& chosen : validation::choose_elements(areas, part_of, count, seed)) {
     const auto [name, emitting] = side_of(scene, mesh.parts()[part_of[static_cast<std::size_t>(chosen.element)]]);
     questions.asked.emplace_back(measure::PatchIrradiance{mesh.patches()[static_cast<std::size_t>(chosen.element)]});
-    questions.judged.push_back({.name = core::format("%s, element %lld", name.c_str(), static_cast<long long>(chosen.element)), .kind = Judged::Kind::element,
-                                .element = chosen.element, .area = areas[static_cast<std::size_t>(chosen.element)],
-                                .emitting = emitting, .fem = {}, .mc = {}, .group = name, .weight = chosen.represented_area});
+    questions.judged.push_back(
+        {.name = core::format("%s, element %lld", name.c_str(), static_cast<long long>(chosen.element)),
+         .kind = Judged::Kind::element,
+         .element = chosen.element,
+         .area = areas[static_cast<std::size_t>(chosen.element)],
+         .emitting = emitting,
+         .fem = {},
+         .mc = {},
+         .group = name,
+         .weight = chosen.represented_area});
   }
 }
 
 void ask_sensors(std::span<const measure::SensorPoint> points, Questions& questions) {
   for (const measure::SensorPoint& point : points) {
     questions.asked.emplace_back(point.at);
-    questions.judged.push_back({.name = core::format("%s[%d]", point.sensor.c_str(), point.index), .kind = Judged::Kind::sensor,
-                                .fem = {}, .mc = {}, .group = point.sensor});
+    questions.judged.push_back({.name = core::format("%s[%d]", point.sensor.c_str(), point.index),
+                                .kind = Judged::Kind::sensor,
+                                .fem = {},
+                                .mc = {},
+                                .group = point.sensor});
   }
 }
 

@@ -19,8 +19,8 @@ struct Questions {
   std::vector<validation::Judged> judged;
 };
 
-/// Every active side of every surface, the sensor points, and `elements` elements (all of them where that is not below their
-/// number), chosen by strata.
+/// Every active side of every surface, the sensor points, and `elements` elements (all of them where that is not below
+/// their number), chosen by strata.
 Questions questions_about(const scene::Scene& scene, const mesh::ElementMesh& mesh,
                           std::span<const measure::SensorPoint> points, std::size_t elements, std::uint64_t seed);
 

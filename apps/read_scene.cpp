@@ -22,8 +22,8 @@ std::vector<std::string> lines_of(const std::vector<scene::Note>& notes) {
 std::string box_text(const scene::Scene& scene) {
   const geometry::Box box = scene.box();
   const Vec3 &low = box.min(), &high = box.max(), size = box.sizes();
-  return core::format("%.6g x %.6g x %.6g m, from (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g)", size.x(), size.y(), size.z(), low.x(),
-                      low.y(), low.z(), high.x(), high.y(), high.z());
+  return core::format("%.6g x %.6g x %.6g m, from (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g)", size.x(), size.y(),
+                      size.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
 }
 
 }  // namespace interflect::apps

@@ -39,7 +39,8 @@ class Session::SignalWatch {
   explicit SignalWatch(std::stop_source& stop) : thread_([this, &stop] { watch(stop); }) {}
   ~SignalWatch() {
     done_ = true;
-    pthread_kill(thread_.native_handle(), SIGTERM);  // NOLINT(bugprone-bad-signal-to-kill-thread): it waits for that one in sigwait
+    pthread_kill(thread_.native_handle(),
+                 SIGTERM);  // NOLINT(bugprone-bad-signal-to-kill-thread): it waits for that one in sigwait
     thread_.join();
   }
 

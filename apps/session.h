@@ -9,7 +9,8 @@ namespace interflect::apps {
 
 /// The threads, progress and Ctrl-C of one command.
 ///
-/// The first Ctrl-C (or SIGTERM) asks the run to stop, so that it keeps what it has; the second ends the program at once.
+/// The first Ctrl-C (or SIGTERM) asks the run to stop, so that it keeps what it has; the second ends the program at
+/// once.
 class Session {
  public:
   explicit Session(const CommonOptions& options);
@@ -28,7 +29,8 @@ class Session {
   std::unique_ptr<SignalWatch> watch_;
 };
 
-/// Blocks the signals that a Session watches, in this thread and all that it will start: to be called before any thread exists.
+/// Blocks the signals that a Session watches, in this thread and all that it will start: to be called before any thread
+/// exists.
 void block_watched_signals();
 
 }  // namespace interflect::apps

@@ -26,18 +26,22 @@ using fem::RadiositySolution;
 std::vector<Spectrum> radiosity_errors(const RadiositySolution& solution) {
   std::vector<Spectrum> errors;
   for (std::size_t i = 0; i < solution.radiosity.size(); ++i)
-    errors.push_back(solution.reflectance[i] * (solution.irradiance_error[i] + normal_95 * solution.irradiance_noise[i]));
+    errors.push_back(solution.reflectance[i] *
+                     (solution.irradiance_error[i] + normal_95 * solution.irradiance_noise[i]));
   return errors;
 }
 
 std::vector<results::CellField> fields_of(const SolvedScene& solved) {
   const RadiositySolution& s = solved.solution;
   const auto& channels = solved.scene.channels;
-  std::vector<results::CellField> fields{
-      results::spectrum_field("radiosity", s.radiosity, channels),     results::spectrum_field("irradiance", s.irradiance, channels),
-      results::spectrum_field("exitance", s.exitance, channels),       results::spectrum_field("reflectance", s.reflectance, channels),
-      results::spectrum_field("error", s.irradiance_error, channels),  results::spectrum_field("noise", s.irradiance_noise, channels),
-      results::spectrum_field("field_error", s.field_error, channels), results::scalar_field("row_sum", s.row_sum)};
+  std::vector<results::CellField> fields{results::spectrum_field("radiosity", s.radiosity, channels),
+                                         results::spectrum_field("irradiance", s.irradiance, channels),
+                                         results::spectrum_field("exitance", s.exitance, channels),
+                                         results::spectrum_field("reflectance", s.reflectance, channels),
+                                         results::spectrum_field("error", s.irradiance_error, channels),
+                                         results::spectrum_field("noise", s.irradiance_noise, channels),
+                                         results::spectrum_field("field_error", s.field_error, channels),
+                                         results::scalar_field("row_sum", s.row_sum)};
   for (results::CellField& ids : results::id_fields(s.mesh)) fields.push_back(std::move(ids));
   return fields;
 }
@@ -68,22 +72,26 @@ std::string energy_text(const SolvedScene& solved) {
   const fem::EnergyBalance& e = solved.solution.energy;
   const double emitted = scene.weigh(e.emitted);
   const auto part = [&](const Spectrum& flux) { return core::format_percent(scene.weigh(flux) / emitted); };
-  return core::format("energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s, form-factor error %s, solver "
-                      "residual %.1e\n", emitted, scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(),
-                      part(e.on_backs).c_str(), part(e.form_factor_error).c_str(),
-                      emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0);
+  return core::format(
+      "energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s, form-factor error %s, solver "
+      "residual %.1e\n",
+      emitted, scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(), part(e.on_backs).c_str(),
+      part(e.form_factor_error).c_str(), emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0);
 }
 
 /// What was asked of the matrix beside its entries: tolerance, threshold, repair.
 std::string matrix_text(const RadiositySolution& s) {
   std::string text;
-  if (s.largest_row_error > 0) text += core::format("row errors  sum_j |dF_ij| at most %.1e (estimated)\n", s.largest_row_error);
+  if (s.largest_row_error > 0)
+    text += core::format("row errors  sum_j |dF_ij| at most %.1e (estimated)\n", s.largest_row_error);
   if (s.kept_share < 1)
-    text += core::format("kept        %s of the pairs; dropped sum_j F_ij: mean %.2e, at most %.2e\n", core::format_percent(s.kept_share).c_str(),
-                         s.mean_dropped, s.largest_dropped);
-  if (s.closure_correction > 0) text += core::format("closure     form factors changed by %.2e of their norm\n", s.closure_correction);
+    text += core::format("kept        %s of the pairs; dropped sum_j F_ij: mean %.2e, at most %.2e\n",
+                         core::format_percent(s.kept_share).c_str(), s.mean_dropped, s.largest_dropped);
+  if (s.closure_correction > 0)
+    text += core::format("closure     form factors changed by %.2e of their norm\n", s.closure_correction);
   if (!s.environment.empty())
-    text += core::format("environment %s of what leaves elements, if all sent the same\n", core::format_percent(fem::mean_environment(s)).c_str());
+    text += core::format("environment %s of what leaves elements, if all sent the same\n",
+                         core::format_percent(fem::mean_environment(s)).c_str());
   return text;
 }
 
@@ -138,7 +146,8 @@ results::Record form_factor_record(const RadiositySolution& solution) {
   return record;
 }
 
-results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run) {
+results::Record summary_record(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common,
+                               const Run& run) {
   const RadiositySolution& solution = solved.solution;
   const int channels = solved.scene.channel_count();
   const core::BuildInfo build = core::build_info();
@@ -176,16 +185,19 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
   return record;
 }
 
-void write_summary(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run) {
+void write_summary(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common,
+                   const Run& run) {
   results::write_json(options.out / "summary.json", summary_record(solved, options, common, run));
 }
 
-void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run) {
+void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common,
+                    const Run& run) {
   const RadiositySolution& s = solved.solution;
   const int channels = solved.scene.channel_count();
   results::write_vtu(options.out / "solution.vtu", s.mesh, fields_of(solved));
-  results::write_surfaces_csv(options.out / "surfaces.csv",
-                              results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
+  results::write_surfaces_csv(
+      options.out / "surfaces.csv",
+      results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
   results::write_sensors_csv(options.out / "sensors.csv", solved.points, solved.at_points, channels);
   write_summary(solved, options, common, run);
 #ifdef INTERFLECT_WITH_VTK
@@ -196,10 +208,12 @@ void write_solution(const SolvedScene& solved, const SolveOptions& options, cons
 std::string solution_text(const SolvedScene& solved) {
   const RadiositySolution& s = solved.solution;
   const fem::ErrorSummary error = fem::summarise_error(s, solved.scene);
-  std::string text = core::format("\nelements    %s, edges up to %.4g m, %s\n", core::format_count(static_cast<unsigned long long>(s.mesh.size())).c_str(),
+  std::string text = core::format("\nelements    %s, edges up to %.4g m, %s\n",
+                                  core::format_count(static_cast<unsigned long long>(s.mesh.size())).c_str(),
                                   s.mesh.longest_edge(), core::format_bytes(s.bytes).c_str());
   text += energy_text(solved);
-  text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest, s.rows.highest);
+  text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest,
+                       s.rows.highest);
   text += matrix_text(s);
   text += core::format("irradiance  mean %.5g %s, error about %s (L2, estimated) and noise %s\n", error.mean_irradiance,
                        solved.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
@@ -207,7 +221,8 @@ std::string solution_text(const SolvedScene& solved) {
   text += core::format("solver      %s after %d iterations, residual %.1e\n", solvers::describe(s.solver.why).c_str(),
                        s.solver.iterations, s.solver.residual());
   text += "time        ";
-  for (const fem::StageCost& stage : s.stages) text += core::format("%s %s  ", stage.stage.c_str(), core::format_duration(stage.seconds).c_str());
+  for (const fem::StageCost& stage : s.stages)
+    text += core::format("%s %s  ", stage.stage.c_str(), core::format_duration(stage.seconds).c_str());
   return text + "\n" + sensors_text(solved);
 }
 

@@ -47,7 +47,8 @@ std::vector<std::string> blind_sensors(const SolvedScene& solved) {
   for (std::size_t k = 0; k < solved.points.size();) {
     const std::string& sensor = solved.points[k].sensor;
     bool blind = true;
-    for (; k < solved.points.size() && solved.points[k].sensor == sensor; ++k) blind = blind && solved.at_points[k].value.is_zero();
+    for (; k < solved.points.size() && solved.points[k].sensor == sensor; ++k)
+      blind = blind && solved.at_points[k].value.is_zero();
     if (blind) warnings.push_back("no light reaches sensor '" + sensor + "': is it outside the room, or turned away?");
   }
   return warnings;
@@ -64,8 +65,9 @@ std::vector<std::string> warnings_of(const SolvedScene& solved) {
                        " of the emitted flux: is a surface flipped?  interflect check tells which");
   const double imbalance = scene.weigh(solution.energy.form_factor_error);
   if (std::abs(imbalance) - normal_95 * scene.weigh(solution.energy.split_error) > noticeable_imbalance * emitted)
-    warnings.push_back("form factors lose " + core::format_percent(imbalance / emitted) +
-                       " of the emitted flux: do faces coincide or lie closer than elements are long?  See interflect check");
+    warnings.push_back(
+        "form factors lose " + core::format_percent(imbalance / emitted) +
+        " of the emitted flux: do faces coincide or lie closer than elements are long?  See interflect check");
   for (std::string& warning : shortfalls_of(solution)) warnings.push_back(std::move(warning));
   return warnings;
 }
@@ -75,15 +77,17 @@ std::vector<std::string> warnings_of(const SolvedScene& solved) {
 std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution) {
   std::vector<std::string> warnings;
   if (!solution.tolerance_met)
-    warnings.push_back(core::format("some rows of form factors are less accurate than asked: sum_j |dF_ij| is up to %.1e",
-                                    solution.largest_row_error));
+    warnings.push_back(
+        core::format("some rows of form factors are less accurate than asked: sum_j |dF_ij| is up to %.1e",
+                     solution.largest_row_error));
   if (!solution.solver.converged())
     warnings.push_back("the solver has not converged: " + solvers::describe(solution.solver.why));
   return warnings;
 }
 
 std::string describe(const fem::Forecast& forecast) {
-  return core::format("%s elements, %s, about %s", core::format_count(static_cast<unsigned long long>(forecast.elements)).c_str(),
+  return core::format("%s elements, %s, about %s",
+                      core::format_count(static_cast<unsigned long long>(forecast.elements)).c_str(),
                       core::format_bytes(forecast.bytes).c_str(), core::format_duration(forecast.seconds).c_str());
 }
 
@@ -97,7 +101,8 @@ std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const Comm
   scene::Scene scene = read_and_note(options.scene);
   const fem::Forecast forecast = fem::forecast(scene, options.settings, run);
   auto folder = std::make_unique<results::OutputDirectory>(options.out);
-  if (!common.json && !common.quiet) std::printf("bounding box %s\n%s\n", box_text(scene).c_str(), describe(forecast).c_str());
+  if (!common.json && !common.quiet)
+    std::printf("bounding box %s\n%s\n", box_text(scene).c_str(), describe(forecast).c_str());
   std::fflush(stdout);
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
   fem::RadiositySettings settings = options.settings;

@@ -59,9 +59,11 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run
   const std::vector<Estimate> found = montecarlo::PathTracer(settings).answer(scene, asked, run);
   std::vector<results::SurfaceRow> rows;
   for (std::size_t k = 0; k < sides.size(); ++k)
-    rows.push_back(results::surface_row(scene, sides[k].first, sides[k].second, scaled(found[k], 1 / scene.area(sides[k].first))));
+    rows.push_back(
+        results::surface_row(scene, sides[k].first, sides[k].second, scaled(found[k], 1 / scene.area(sides[k].first))));
   results::write_surfaces_csv(options.estimates / "surfaces.csv", rows, scene.channel_count());
-  results::write_sensors_csv(options.estimates / "sensors.csv", points, std::span(found).subspan(sides.size()), scene.channel_count());
+  results::write_sensors_csv(options.estimates / "sensors.csv", points, std::span(found).subspan(sides.size()),
+                             scene.channel_count());
 }
 
 /// What there is to tell at the end.
@@ -82,15 +84,17 @@ std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOp
     core::log::warning("stopped: no estimates were written");
     return {};
   }
-  if (run.stop.stop_requested()) core::log::warning("stopped: the estimates have fewer samples than --accuracy asks for");
+  if (run.stop.stop_requested())
+    core::log::warning("stopped: the estimates have fewer samples than --accuracy asks for");
   return options.estimates;
 }
 
 void print_text(const Traced& t) {
-  std::printf("%s, %llu samples a pixel: %s and %s\n", t.camera.c_str(), static_cast<unsigned long long>(t.samples), t.exr.c_str(),
-              t.png.c_str());
+  std::printf("%s, %llu samples a pixel: %s and %s\n", t.camera.c_str(), static_cast<unsigned long long>(t.samples),
+              t.exr.c_str(), t.png.c_str());
   if (!t.estimates.empty())
-    std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(), (t.estimates / "sensors.csv").c_str());
+    std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(),
+                (t.estimates / "sensors.csv").c_str());
   if (t.stopped) std::printf("stopped before all was done\n");
 }
 

@@ -17,7 +17,8 @@ using montecarlo::PathTracer;
 using validation::Certificate;
 using validation::Judged;
 
-constexpr double accuracy_of_norms = 3;  ///< the reference's 95 % error may be this many times the accuracy asked of a value
+constexpr double accuracy_of_norms =
+    3;  ///< the reference's 95 % error may be this many times the accuracy asked of a value
 
 /// Both methods' answers, as mean irradiances, in the order of the questions.
 std::vector<Judged> judge(const SolvedScene& solved, const Questions& questions, const PathTracer& tracer, Run& run) {
@@ -66,8 +67,8 @@ void add_reason(const std::string& reason, Certificate& certificate) {
 Certificate certified(const SolvedScene& solved, std::span<const Judged> judged, double accuracy, const Run& run) {
   validation::Settings settings;
   settings.reference_limit = accuracy_of_norms * accuracy;
-  Certificate certificate =
-      validation::certify(solved.scene, judged, fem_energy(solved.solution.energy), traced_energy(solved, judged), settings);
+  Certificate certificate = validation::certify(solved.scene, judged, fem_energy(solved.solution.energy),
+                                                traced_energy(solved, judged), settings);
   const solvers::SolverReport& solver = solved.solution.solver;
   if (!solver.converged()) add_reason("the solver has not converged: " + solvers::describe(solver.why), certificate);
   if (run.stop.stop_requested()) add_reason("stopped before every traced value was as accurate as asked", certificate);
@@ -81,15 +82,17 @@ PathTracer tracer_for(const ValidateOptions& options) {
   return PathTracer(settings);
 }
 
-Questions questions_of(const scene::Scene& scene, const mesh::ElementMesh& mesh, std::span<const measure::SensorPoint> points,
-                       const ValidateOptions& options, std::uint64_t seed) {
+Questions questions_of(const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                       std::span<const measure::SensorPoint> points, const ValidateOptions& options,
+                       std::uint64_t seed) {
   const auto all = static_cast<std::size_t>(mesh.size()), some = static_cast<std::size_t>(options.elements);
   return questions_about(scene, mesh, points, options.all_elements ? all : some, seed);
 }
 
 std::string tracing_text(const Questions& questions, const ValidateOptions& options, double seconds) {
-  return core::format("tracing %s measurements to %.2g %%, about %s", core::format_count(questions.asked.size()).c_str(),
-                      100 * options.accuracy, core::format_duration(seconds).c_str());
+  return core::format("tracing %s measurements to %.2g %%, about %s",
+                      core::format_count(questions.asked.size()).c_str(), 100 * options.accuracy,
+                      core::format_duration(seconds).c_str());
 }
 
 /// With --forecast, what the solve and the tracing will need is the result; the pictures come on top.
@@ -107,12 +110,13 @@ ExitStatus print_forecast(const ValidateOptions& options, const CommonOptions& c
 }
 
 /// Asks both methods; where a stop leaves nothing to judge by, summary.json tells of it.
-std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOptions& options, const CommonOptions& common,
-                                    Run& run) try {
+std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOptions& options,
+                                    const CommonOptions& common, Run& run) try {
   const Questions questions = questions_of(solved.scene, solved.solution.mesh, solved.points, options, run.seed);
   const PathTracer tracer = tracer_for(options);
   if (!common.json && !common.quiet)
-    std::printf("\n%s\n", tracing_text(questions, options, tracer.forecast(solved.scene, questions.asked, run)).c_str());
+    std::printf("\n%s\n",
+                tracing_text(questions, options, tracer.forecast(solved.scene, questions.asked, run)).c_str());
   std::fflush(stdout);
   return judge(solved, questions, tracer, run);
 } catch (const core::Interrupted&) {

@@ -27,12 +27,14 @@ std::vector<results::SurfaceRow> traced_rows(const SolvedScene& solved, std::spa
   return rows;
 }
 
-/// Per element: both values, the noise of the reference, relative difference and z; NaN where an element was not judged.
+/// Per element: both values, the noise of the reference, relative difference and z; NaN where an element was not
+/// judged.
 void write_field(const SolvedScene& solved, std::span<const Judged> judged, const Certificate& certificate,
                  const std::filesystem::path& file) {
   const auto n = static_cast<std::size_t>(solved.solution.mesh.size());
   const scene::Scene& scene = solved.scene;
-  std::vector<double> fem(n), mc(n, not_judged), standard_error(n, not_judged), bound(n), relative(n, not_judged), z(n, not_judged);
+  std::vector<double> fem(n), mc(n, not_judged), standard_error(n, not_judged), bound(n), relative(n, not_judged),
+      z(n, not_judged);
   for (std::size_t i = 0; i < n; ++i) {
     fem[i] = scene.weigh(solved.solution.irradiance[i]);
     bound[i] = scene.weigh(solved.solution.irradiance_error[i]);
@@ -66,8 +68,9 @@ const validation::Norms& dark_norms(const validation::Judgement& j) {
 }
 
 std::string expected_text(const validation::ExpectedCheck& e) {
-  return core::format("expected of %s: %s %.6g +- %s; FEM %.6g, path tracing %.6g: %s\n", e.sensor.c_str(), e.statistic.c_str(), e.expected,
-                      core::format_percent(e.tolerance).c_str(), e.fem, e.mc, e.passed() ? "holds" : "does not hold");
+  return core::format("expected of %s: %s %.6g +- %s; FEM %.6g, path tracing %.6g: %s\n", e.sensor.c_str(),
+                      e.statistic.c_str(), e.expected, core::format_percent(e.tolerance).c_str(), e.fem, e.mc,
+                      e.passed() ? "holds" : "does not hold");
 }
 
 }  // namespace
@@ -103,7 +106,8 @@ std::string certificate_text(const Certificate& certificate) {
                  core::format_percent(norms->reference_error)});
   std::string text = "\n" + table.text() + "\n";
   if (!certificate.worst_surface.empty())
-    text += core::format("worst surface: %s, %+.2f %%\n", certificate.worst_surface.c_str(), 100 * certificate.worst_surface_difference);
+    text += core::format("worst surface: %s, %+.2f %%\n", certificate.worst_surface.c_str(),
+                         100 * certificate.worst_surface_difference);
   for (const validation::ExpectedCheck& e : certificate.expected) text += expected_text(e);
   for (const std::string& reason : certificate.reasons) text += "not validated: " + reason + "\n";
   for (const std::string& remark : certificate.remarks) text += "remark: " + remark + "\n";

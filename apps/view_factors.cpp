@@ -184,7 +184,8 @@ void print_summary(const ViewFactorOptions& options, const FactorStore& store, c
     std::printf("lost        up to %.2f %% of a row, beyond what the method sees\n", 100 * report.pairs.lost);
   if (report.pairs.clamped > 0)
     std::printf("clamped     %llu entries\n", static_cast<unsigned long long>(report.pairs.clamped));
-  std::printf("written to  %s%s\n", options.out.string().c_str(), options.view_of.empty() ? "" : ", .view.vtu and .view.png beside it");
+  std::printf("written to  %s%s\n", options.out.string().c_str(),
+              options.view_of.empty() ? "" : ", .view.vtu and .view.png beside it");
 }
 
 /// What a run will need, said before it starts.

@@ -1,5 +1,5 @@
-// What assembling and solving the office costs: time of each stage, memory, and nanoseconds a pair.  The limit that it is held
-// against: 5 000 elements (12.5 million pairs) in 60 s on two cores and 1 GB.
+// What assembling and solving the office costs: time of each stage, memory, and nanoseconds a pair.  The limit that it
+// is held against: 5 000 elements (12.5 million pairs) in 60 s on two cores and 1 GB.
 //
 //   bench_assembly [SCENE [ELEMENTS [THREADS [RAYS]]]]      default: data/scenes/office.json 5000 2 16
 

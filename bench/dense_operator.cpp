@@ -1,5 +1,5 @@
-// How close the dense operator comes to a plain read of its bytes, with three columns, and a sparse one beside it: ratios within one
-// interleaved run.
+// How close the dense operator comes to a plain read of its bytes, with three columns, and a sparse one beside it:
+// ratios within one interleaved run.
 //
 //   bench_dense_operator [n ...]      default: 5000 10000
 
@@ -104,7 +104,8 @@ void compare_eigen(const Problem& problem, double& sink) {
               100 * fastest(read) / fastest(product));
 }
 
-/// A sparse operator of a tenth of the pairs: its product against a plain read of its 12 bytes a pair, and against the dense product.
+/// A sparse operator of a tenth of the pairs: its product against a plain read of its 12 bytes a pair, and against the
+/// dense product.
 void compare_sparse(const Problem& problem, unsigned threads, double& sink) {
   const Index n = problem.K.size();
   core::LocalRun run(1, threads);
@@ -121,8 +122,11 @@ void compare_sparse(const Problem& problem, unsigned threads, double& sink) {
     dense.push_back(seconds([&] { problem.K.apply(problem.b, out, run); }));
     sink += out.sum();
   }
-  std::printf("%7td %7u   sparse, %.0f %% of the pairs kept: %.1f MB, %.0f %% of a plain read, %.2f of the dense product's time\n", n, threads,
-              100 * K->kept_share(), 1e-6 * K->bytes(), 100 * fastest(read) / fastest(product), fastest(product) / fastest(dense));
+  std::printf(
+      "%7td %7u   sparse, %.0f %% of the pairs kept: %.1f MB, %.0f %% of a plain read, %.2f of the dense product's "
+      "time\n",
+      n, threads, 100 * K->kept_share(), 1e-6 * K->bytes(), 100 * fastest(read) / fastest(product),
+      fastest(product) / fastest(dense));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// How close the visibility stage of assembly comes to its rays alone: the same segments in the same order, first recorded,
-// then cast (a) by the stage itself, which makes points and weights, casts, and estimates; (b) by the caster from the record,
-// in the stage's batches; (c) the same, one segment at a time; (d) by a bare Embree loop over packets of eight made
-// beforehand, without any of our code.  Interleaved rounds, medians of CPU time, one thread.
+// How close the visibility stage of assembly comes to its rays alone: the same segments in the same order, first
+// recorded, then cast (a) by the stage itself, which makes points and weights, casts, and estimates; (b) by the caster
+// from the record, in the stage's batches; (c) the same, one segment at a time; (d) by a bare Embree loop over packets
+// of eight made beforehand, without any of our code.  Interleaved rounds, medians of CPU time, one thread.
 //
 //   bench_visibility [SCENE [ELEMENTS [RAYS]]]      default: data/scenes/office.json 1500 16
 

@@ -22,9 +22,10 @@ enum class Claim : std::uint8_t {
 struct Estimate {
   Spectrum value;
   Spectrum standard_error;  ///< of sampling noise alone; 0 where nothing was sampled
-  Spectrum error_bound{std::numeric_limits<double>::infinity()};  ///< |bias|: discretisation, quadrature, solver; never a silent 0
-  Claim claim = Claim::none;  ///< what `error_bound` is worth
-  std::uint64_t samples = 0;  ///< independent samples behind `standard_error`
+  Spectrum error_bound{
+      std::numeric_limits<double>::infinity()};  ///< |bias|: discretisation, quadrature, solver; never a silent 0
+  Claim claim = Claim::none;                     ///< what `error_bound` is worth
+  std::uint64_t samples = 0;                     ///< independent samples behind `standard_error`
   /// Of the scene's weighted value sum_c weights[c] value[c], which the channels' own do not tell: their noise may be
   /// correlated.  NaN where it was not measured; sum_c weights[c] standard_error[c] is then an upper bound.
   double weighed_standard_error = std::numeric_limits<double>::quiet_NaN();

@@ -20,7 +20,8 @@ inline Frame frame_around(const Vec3& n) {
   return {{1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}, n};
 }
 
-/// A direction about +z with pdf_solid_angle = cos(theta) / pi [1/sr]; z > 0 always, for u < 1.  (Malley: a uniform disk, lifted.)
+/// A direction about +z with pdf_solid_angle = cos(theta) / pi [1/sr]; z > 0 always, for u < 1.  (Malley: a uniform
+/// disk, lifted.)
 inline Vec3 cosine_hemisphere(double u, double v) {
   const double r = std::sqrt(u), phi = 2 * pi * v;
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)};

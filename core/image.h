@@ -21,7 +21,8 @@ struct Image {
   /// The channels of a pixel, of which there are at most Spectrum::capacity.
   Spectrum pixel(int x, int y) const;
   std::size_t offset(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * channels.size();
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+           channels.size();
   }
 };
 

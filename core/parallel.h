@@ -21,7 +21,8 @@ class Threads {
 
   unsigned count() const { return count_; }
 
-  /// body(begin, end) for [0, n) cut into blocks of `block`, in any order, on any thread.  The first exception is rethrown.
+  /// body(begin, end) for [0, n) cut into blocks of `block`, in any order, on any thread.  The first exception is
+  /// rethrown.
   void for_blocks(Index n, Index block, const std::function<void(Index begin, Index end)>& body) const;
 
  private:
@@ -32,7 +33,8 @@ class Threads {
   std::unique_ptr<Backend> backend_;
 };
 
-/// sum of block(begin, end) over the blocks of [0, n), added in the order of the blocks: same bits for any number of threads.
+/// sum of block(begin, end) over the blocks of [0, n), added in the order of the blocks: same bits for any number of
+/// threads.
 template <class T, class Block>
 T reduce_in_blocks(const Threads& threads, Index n, Index block_size, T zero, const Block& block) {
   std::vector<T> partial(static_cast<std::size_t>((n + block_size - 1) / block_size), zero);

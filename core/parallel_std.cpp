@@ -11,7 +11,8 @@ namespace interflect::core {
 struct Threads::Backend {};  // threads are started for each loop: this backend is for checking, not for speed
 
 Threads::Threads(unsigned count)
-    : count_(count != 0 ? count : std::max(1u, std::thread::hardware_concurrency())), backend_(std::make_unique<Backend>()) {}
+    : count_(count != 0 ? count : std::max(1u, std::thread::hardware_concurrency())),
+      backend_(std::make_unique<Backend>()) {}
 
 Threads::~Threads() = default;
 

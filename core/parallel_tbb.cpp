@@ -20,7 +20,8 @@ struct Threads::Backend {
 };
 
 Threads::Threads(unsigned count)
-    : count_(count != 0 ? count : std::max(1u, std::thread::hardware_concurrency())), backend_(std::make_unique<Backend>(count_)) {}
+    : count_(count != 0 ? count : std::max(1u, std::thread::hardware_concurrency())),
+      backend_(std::make_unique<Backend>(count_)) {}
 
 Threads::~Threads() = default;
 

@@ -39,7 +39,8 @@ void Progress::Stage::advance(std::uint64_t units) {
   Clock::rep due = next_report_.load();
   if (now.time_since_epoch().count() < due) return;
   const auto interval = progress_.style_ == Style::bar ? Clock::duration(bar_interval) : Clock::duration(line_interval);
-  if (next_report_.compare_exchange_strong(due, (now + interval).time_since_epoch().count())) progress_.report(*this, done);
+  if (next_report_.compare_exchange_strong(due, (now + interval).time_since_epoch().count()))
+    progress_.report(*this, done);
 }
 
 void Progress::report(Stage& stage, std::uint64_t done) {
@@ -50,9 +51,10 @@ void Progress::report(Stage& stage, std::uint64_t done) {
   stage.shown_ = true;
   if (style_ == Style::bar) {
     const int filled = static_cast<int>(part * bar_width);
-    const std::string bar(static_cast<std::size_t>(filled), '#'), rest(static_cast<std::size_t>(bar_width - filled), '.');
-    std::fprintf(stderr, "\r\033[K%-16s [%s%s] %3.0f %%  %s left", stage.name_.c_str(), bar.c_str(), rest.c_str(), 100 * part,
-                 left.c_str());
+    const std::string bar(static_cast<std::size_t>(filled), '#'),
+        rest(static_cast<std::size_t>(bar_width - filled), '.');
+    std::fprintf(stderr, "\r\033[K%-16s [%s%s] %3.0f %%  %s left", stage.name_.c_str(), bar.c_str(), rest.c_str(),
+                 100 * part, left.c_str());
   } else {
     std::fprintf(stderr, "%s: %.0f %%, %s left\n", stage.name_.c_str(), 100 * part, left.c_str());
   }

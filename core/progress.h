@@ -8,8 +8,8 @@
 
 namespace interflect::core {
 
-/// Tells a person how far a run has come, on standard error: a bar with the time to completion on a terminal, a line after two
-/// seconds and then every ten elsewhere, nothing when quiet.  Stages shorter than two seconds stay silent.
+/// Tells a person how far a run has come, on standard error: a bar with the time to completion on a terminal, a line
+/// after two seconds and then every ten elsewhere, nothing when quiet.  Stages shorter than two seconds stay silent.
 class Progress {
  public:
   enum class Style { quiet, bar, lines };

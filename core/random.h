@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <string_view>
 
-/// Counter-based random numbers: a number is a pure function of what it serves (seed, stream, index, dimension), so that
-/// any thread may draw it, in any order, and a run is repeated bit by bit.
+/// Counter-based random numbers: a number is a pure function of what it serves (seed, stream, index, dimension), so
+/// that any thread may draw it, in any order, and a run is repeated bit by bit.
 ///
 /// Source: Philox4x32-10, [Salmon 2011] "Parallel random numbers: as easy as 1, 2, 3", SC'11, section 3.2.
 /// Test: tests/core/random.cpp, by the published known answers.
@@ -49,7 +49,8 @@ constexpr double uniform_53(std::uint32_t high, std::uint32_t low) {
 /// The seed of one purpose ("visibility", "pixels"), so that two rooms never share a number by accident.
 std::uint64_t derived_seed(std::uint64_t seed, std::string_view purpose);
 
-/// The key of what numbers serve, from the bits of what tells it from others: equal numbers, equal keys (0 and -0 are equal).
+/// The key of what numbers serve, from the bits of what tells it from others: equal numbers, equal keys (0 and -0 are
+/// equal).
 std::uint64_t key_of(std::initializer_list<double> numbers);
 
 /// The numbers of one sample, dimension after dimension, 53 bits each.

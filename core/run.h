@@ -10,7 +10,8 @@
 
 namespace interflect {
 
-/// What every long computation is given.  A result is a function of (scene, settings, seed) and of nothing else in here.
+/// What every long computation is given.  A result is a function of (scene, settings, seed) and of nothing else in
+/// here.
 struct Run {
   std::uint64_t seed;
   const core::Threads& threads;
@@ -28,7 +29,8 @@ namespace core {
 /// A Run with its own threads and no progress shown: for tests, benchmarks and programs that need no more.
 class LocalRun {
  public:
-  explicit LocalRun(std::uint64_t seed = 1, unsigned threads = 0) : threads_(threads), run_{seed, threads_, progress_, {}} {}
+  explicit LocalRun(std::uint64_t seed = 1, unsigned threads = 0)
+      : threads_(threads), run_{seed, threads_, progress_, {}} {}
   operator Run&() { return run_; }  // NOLINT(google-explicit-constructor): it stands for the run that it holds
   Run& get() { return run_; }
 

@@ -10,17 +10,17 @@ namespace interflect::core {
 ///
 ///   x_k = XOR over the bits l of k that are 1 of v_l        (bit by bit; v_l: the direction numbers of the dimension)
 ///
-/// The first 2^m points, and every 2^m after them, have one coordinate in each interval of length 2^-m, and for dimensions 0 and
-/// 1 one point in each elementary rectangle of area 2^-m: a (0, 2)-sequence in base 2.
+/// The first 2^m points, and every 2^m after them, have one coordinate in each interval of length 2^-m, and for
+/// dimensions 0 and 1 one point in each elementary rectangle of area 2^-m: a (0, 2)-sequence in base 2.
 ///
-/// `scrambled` multiplies each dimension's generating matrix from the left by a random lower triangular one (a random linear
-/// scramble: the same nets, since it maps leading bits onto leading bits).  With a random digital shift, a uniform word XORed to
-/// each coordinate, every single point is uniform, so that means are unbiased, and their variance is that of Owen's nested
-/// scrambling, O(n^-3 log^(d-1) n) for smooth integrands.  The shift is the caller's, since it is what makes one set of points
-/// serve many.
+/// `scrambled` multiplies each dimension's generating matrix from the left by a random lower triangular one (a random
+/// linear scramble: the same nets, since it maps leading bits onto leading bits).  With a random digital shift, a
+/// uniform word XORed to each coordinate, every single point is uniform, so that means are unbiased, and their variance
+/// is that of Owen's nested scrambling, O(n^-3 log^(d-1) n) for smooth integrands.  The shift is the caller's, since it
+/// is what makes one set of points serve many.
 ///
-/// Sources: [Sobol 1967]; direction numbers of [Joe, Kuo 2008] (new-joe-kuo-6); linear scrambles [Matousek 1998], their variance
-/// [Hickernell, Yue 2000].  Test: tests/core/sobol.cpp.
+/// Sources: [Sobol 1967]; direction numbers of [Joe, Kuo 2008] (new-joe-kuo-6); linear scrambles [Matousek 1998], their
+/// variance [Hickernell, Yue 2000].  Test: tests/core/sobol.cpp.
 class Sobol {
  public:
   static constexpr int dimensions = 8, bits = 32;

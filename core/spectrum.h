@@ -12,7 +12,8 @@ namespace interflect {
 /// One number per channel (a band of wavelengths, or a colour channel), in the unit of what it describes.
 ///
 /// The capacity is a constant of the build, so that a spectrum is a plain value without a heap; a scene says how many
-/// channels it uses (`Scene::channel_count()`), and the rest stay 0.  Arithmetic is channel by channel over the capacity.
+/// channels it uses (`Scene::channel_count()`), and the rest stay 0.  Arithmetic is channel by channel over the
+/// capacity.
 class Spectrum {
  public:
   static constexpr int capacity = INTERFLECT_SPECTRUM_CAPACITY;
@@ -27,9 +28,15 @@ class Spectrum {
   constexpr const double* data() const { return values_.data(); }
   constexpr double* data() { return values_.data(); }
 
-  constexpr Spectrum& operator+=(const Spectrum& o) { return each(o, [](double a, double b) { return a + b; }); }
-  constexpr Spectrum& operator-=(const Spectrum& o) { return each(o, [](double a, double b) { return a - b; }); }
-  constexpr Spectrum& operator*=(const Spectrum& o) { return each(o, [](double a, double b) { return a * b; }); }
+  constexpr Spectrum& operator+=(const Spectrum& o) {
+    return each(o, [](double a, double b) { return a + b; });
+  }
+  constexpr Spectrum& operator-=(const Spectrum& o) {
+    return each(o, [](double a, double b) { return a - b; });
+  }
+  constexpr Spectrum& operator*=(const Spectrum& o) {
+    return each(o, [](double a, double b) { return a * b; });
+  }
   constexpr Spectrum& operator*=(double s) { return *this *= Spectrum(s); }
   constexpr Spectrum& operator/=(double s) { return *this *= Spectrum(1.0 / s); }
 

@@ -24,7 +24,8 @@ class Total {
   PairCounts counts_;
 };
 
-PairCounts assemble_pairs(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
+PairCounts assemble_pairs(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches,
+                          ExchangeSink& sink, Run& run) {
   const auto n = static_cast<Index>(patches.size());
   const Index block = std::clamp<Index>(n / 24, 64, 512), blocks = (n + block - 1) / block;
   std::vector<std::pair<Index, Index>> tasks;
@@ -42,7 +43,8 @@ PairCounts assemble_pairs(const FormFactorMethod& method, std::span<const scene:
   return total.counts();
 }
 
-PairCounts assemble_rows(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
+PairCounts assemble_rows(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches,
+                         ExchangeSink& sink, Run& run) {
   const auto n = static_cast<Index>(patches.size());
   constexpr Index rows_at_a_time = 4;
   TwoViews views(n);
@@ -60,7 +62,8 @@ PairCounts assemble_rows(const FormFactorMethod& method, std::span<const scene::
     for (Index a = begin; a < end; ++a)
       for (Index b = a + 1; b < n; ++b) {
         ExchangeEntry entry = views.joined(a, b);
-        const double most = std::min(patches[static_cast<std::size_t>(a)].area, patches[static_cast<std::size_t>(b)].area);
+        const double most =
+            std::min(patches[static_cast<std::size_t>(a)].area, patches[static_cast<std::size_t>(b)].area);
         if (entry.K > most) entry.K = most, ++clamped[static_cast<std::size_t>(a)];
         if (entry.K > 0 || entry.standard_error > 0 || entry.bound > 0) sink.add(a, b, entry);
       }
@@ -72,7 +75,8 @@ PairCounts assemble_rows(const FormFactorMethod& method, std::span<const scene::
 
 }  // namespace
 
-PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
+PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink,
+                    Run& run) {
   switch (method.granularity()) {
     case Granularity::pair:
       return assemble_pairs(method, patches, sink, run);

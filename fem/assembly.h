@@ -4,9 +4,9 @@
 
 namespace interflect::fem {
 
-/// Every pair of elements, asked of `method` in parallel: in blocks of rows and columns of the upper triangle, in rows (whose two views of
-/// a pair are joined, two_views.h), or all at once, as it wants.
-/// Same entries for any number of threads.  @throws core::Interrupted
+/// Every pair of elements, asked of `method` in parallel: in blocks of rows and columns of the upper triangle, in rows
+/// (whose two views of a pair are joined, two_views.h), or all at once, as it wants. Same entries for any number of
+/// threads.  @throws core::Interrupted
 PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink,
                     Run& run);
 

@@ -52,13 +52,14 @@ std::vector<std::string> closure_names();
 /// and the same for z_a with g_a = (z_a - Z_a) / v_a - l_a.  So K'_ab is K_ab + w_ab (l_a + l_b), clamped: N numbers
 /// tell the whole matrix.  Of scaling the condition is log(K'_ab / K_ab) = u_a + u_b.
 ///
-/// Both are found as the minimum of the convex dual function of u (u = kappa l), whose gradient is what rows are off by,
-/// with Newton's method; it is semismooth where clamps are (an entry at a bound has the slope 0) [Qi, Sun 1993].  Its
-/// steps are by conjugate gradients with the operator alone [scaling: after Knight, Ruiz 2013; least squares without the
-/// bounds: Larsen, Howell 1986; van Leersum 1989].
+/// Both are found as the minimum of the convex dual function of u (u = kappa l), whose gradient is what rows are off
+/// by, with Newton's method; it is semismooth where clamps are (an entry at a bound has the slope 0) [Qi, Sun 1993].
+/// Its steps are by conjugate gradients with the operator alone [scaling: after Knight, Ruiz 2013; least squares
+/// without the bounds: Larsen, Howell 1986; van Leersum 1989].
 ///
-/// Where an operator dropped entries, the environment is found first with what they are known to bring in their rows; then,
-/// fixed, K is repaired to the rows without them: what was dropped is given to other entries, not to the environment.
+/// Where an operator dropped entries, the environment is found first with what they are known to bring in their rows;
+/// then, fixed, K is repaired to the rows without them: what was dropped is given to other entries, not to the
+/// environment.
 ///
 /// Scaling keeps positive entries positive; least squares may set one to 0.  To first order they differ by the weights
 /// alone: scaling's are w_ab = K_ab.  Neither removes errors that rows do not show.

@@ -7,8 +7,8 @@
 
 namespace interflect::fem {
 
-/// A point of an element from two numbers in [0, 1), and its weight: the ratio of areas around it, whose mean over the square
-/// is 1.
+/// A point of an element from two numbers in [0, 1), and its weight: the ratio of areas around it, whose mean over the
+/// square is 1.
 struct WeightedPoint {
   Vec3 position;
   double weight;
@@ -23,7 +23,8 @@ struct PointLanes {
 };
 
 /// From the unit square onto an element.  Triangles by the area-preserving map of [Turk 1990], weight 1; quads by the
-/// bilinear map, whose Jacobian is the weight: linear in (s, t), since on a plane the product of the bilinear terms vanishes.
+/// bilinear map, whose Jacobian is the weight: linear in (s, t), since on a plane the product of the bilinear terms
+/// vanishes.
 class ElementMap {
  public:
   explicit ElementMap(const scene::SurfacePatch& patch);

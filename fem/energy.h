@@ -12,8 +12,9 @@ struct LostRays {
   std::uint64_t rays = 0, lost = 0;
 };
 
-/// Cosine-distributed rays from the elements: half of them by flux A_i B_i (channels weighed as the scene weighs them), half
-/// by area, so that dark openings are found too; each carries A_i B_i over its probability.  Ray k is keyed by (seed, k).
+/// Cosine-distributed rays from the elements: half of them by flux A_i B_i (channels weighed as the scene weighs them),
+/// half by area, so that dark openings are found too; each carries A_i B_i over its probability.  Ray k is keyed by
+/// (seed, k).
 /// @param radiosity  per element; all 0: by area alone
 LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
                         std::span<const Spectrum> radiosity, const raycast::RayCaster& rays, Run& run);

@@ -18,10 +18,11 @@ struct ErrorSources {
 
 /// Fills irradiance_error, irradiance_noise, shared_noise and field_error of a solution whose other fields are there.
 ///
-/// Discretisation.  D = G^-1 K (B_h - P B_2h): what the iterated irradiance of each element owes to halving the elements,
-/// with the same K for both, so that no noise of visibility is in it.  Where errors fall as h^p, |D| is (2^p - 1) times the
-/// error that is left at h, so at least the error for p >= 1; means of constants have p = 2 where the solution is smooth, 1.5
-/// to 2 beside edges. A zero of D is a place where the sign changes and not one without error, so that the bound is
+/// Discretisation.  D = G^-1 K (B_h - P B_2h): what the iterated irradiance of each element owes to halving the
+/// elements, with the same K for both, so that no noise of visibility is in it.  Where errors fall as h^p, |D| is (2^p
+/// - 1) times the error that is left at h, so at least the error for p >= 1; means of constants have p = 2 where the
+/// solution is smooth, 1.5 to 2 beside edges. A zero of D is a place where the sign changes and not one without error,
+/// so that the bound is
 ///
 ///   max(|D_i|, rms of D over the four children of i's parent, 1/2 rms of D over i's side of its surface)
 ///
@@ -39,8 +40,8 @@ struct ErrorSources {
 ///
 ///   shared² = (rho / (1 - rho))² Var(mean H),   Var(mean H) = sum_{i<j} e_ij² (B_i + B_j)² / A² = sum_ij e_ij² (B_j² + B_i B_j) / A²
 ///
-/// with the mean rho and the total area A; K_ij = K_ji is one random number that two elements share.  irradiance_noise² is var +
-/// shared².  An element that sees little but one other has more.
+/// with the mean rho and the total area A; K_ij = K_ji is one random number that two elements share.  irradiance_noise²
+/// is var + shared².  An element that sees little but one other has more.
 ///
 /// Field.  Constants differ from the iterated B_1 by its variation inside the element.  For a linear field the root mean
 /// square over an element is 1/sqrt(3) of that between the four children of a parent, for triangles and parallelograms alike;

@@ -6,8 +6,8 @@ namespace interflect::fem {
 
 /// How wrong a solution is on the whole: area-weighted over the elements, in the weighted value of irradiance.
 struct ErrorSummary {
-  double mean_irradiance = 0;    ///< [W/m² | lx]
-  double relative_l2 = 0;        ///< sqrt( sum A bound² / sum A H² ): estimated, of discretisation, quadrature and solver
+  double mean_irradiance = 0;  ///< [W/m² | lx]
+  double relative_l2 = 0;  ///< sqrt( sum A bound² / sum A H² ): estimated, of discretisation, quadrature and solver
   double relative_noise_l2 = 0;  ///< the same of the standard errors of sampled visibility
 };
 

@@ -80,7 +80,8 @@ std::vector<Gather::Unproved> Gather::unproved_elements(const Receiver& at, Gath
     for (const Index j : cluster.elements) {
       const ElementShape& shape = shapes_[j];
       const double before = shape.plane.distance(at.local);
-      if (before <= shapes_.height_tolerance(shape, at.local) || at.horizon.distance(shape.centroid) <= -shape.radius) continue;
+      if (before <= shapes_.height_tolerance(shape, at.local) || at.horizon.distance(shape.centroid) <= -shape.radius)
+        continue;
       const bool distant = (shape.centroid - at.local).squaredNorm() > far * far * shape.radius * shape.radius &&
                            at.horizon.distance(shape.centroid) > shape.radius;
       const double factor =

@@ -27,10 +27,10 @@ struct Gathered {
 ///
 ///   H_1(x, n) = sum_j F_{dA(x,n)->j} V(x, j) B_j  [W/m² | lx]
 ///
-/// Lambert's formula on the part of element j above the horizon of (x, n) and on the side it is seen from; visibility 1 where
-/// a shaft proves it, else from stratified rays weighted by cos cos / r².  A near element is cut into quarters first, until
-/// its parts are smaller than their distance, so that one part's rays count about equally.  Rays are given in proportion to
-/// what an element may contribute.
+/// Lambert's formula on the part of element j above the horizon of (x, n) and on the side it is seen from; visibility 1
+/// where a shaft proves it, else from stratified rays weighted by cos cos / r².  A near element is cut into quarters
+/// first, until its parts are smaller than their distance, so that one part's rays count about equally.  Rays are given
+/// in proportion to what an element may contribute.
 class Gather {
  public:
   /// All of it outlives the gather.  @param rays_per_point  to be shared by the elements that need them; each gets 4 at least

@@ -29,7 +29,8 @@ Trial with_resolution(const std::string& method, int resolution) {
   return {method, core::format("resolution %d", resolution), [=](FormFactorContext& c) { c.resolution = resolution; }};
 }
 Trial with_samples(const std::string& method, std::uint64_t samples) {
-  return {method, core::format("samples %llu", static_cast<unsigned long long>(samples)), [=](FormFactorContext& c) { c.samples = samples; }};
+  return {method, core::format("samples %llu", static_cast<unsigned long long>(samples)),
+          [=](FormFactorContext& c) { c.samples = samples; }};
 }
 
 /// A ladder for every method that is known; one that has none here runs as it is.
@@ -98,7 +99,8 @@ std::vector<MethodScore> compare_methods(const FormFactorContext& context, doubl
     return make_form_factor_method("analytic", fine);
   };
   const ToleranceReport reference = assemble_to_tolerance(analytic, reference_tolerance, context.patches, exact, run);
-  MethodScore last{"analytic", core::format("rows to %g: the reference", reference_tolerance), seconds_since(start), 0, 0, 0, 0, {}};
+  MethodScore last{
+      "analytic", core::format("rows to %g: the reference", reference_tolerance), seconds_since(start), 0, 0, 0, 0, {}};
   last.stated_row_error = *std::max_element(reference.row_errors.begin(), reference.row_errors.end());
   last.pairs = reference.pairs;
 

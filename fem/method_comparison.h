@@ -19,8 +19,8 @@ struct MethodScore {
   PairCounts pairs;
 };
 
-/// Every method of the catalogue at settings from coarse to fine, against `analytic` with rows to `reference_tolerance`, which comes
-/// last, with the errors that it states of itself.
+/// Every method of the catalogue at settings from coarse to fine, against `analytic` with rows to
+/// `reference_tolerance`, which comes last, with the errors that it states of itself.
 /// @param scored  called with each score when it is there
 /// @throws core::Interrupted
 std::vector<MethodScore> compare_methods(const FormFactorContext& context, double reference_tolerance, Run& run,

@@ -9,7 +9,7 @@
 namespace interflect::fem {
 namespace {
 
-constexpr double near = 1.5;  ///< in sums of radii between centroids
+constexpr double near = 1.5;      ///< in sums of radii between centroids
 constexpr double spot = 1.0 / 6;  ///< of an element: smaller ones are not resolved by its siblings' means
 constexpr Index rows_at_once = 32;
 const double concave_edge = 1 + std::sqrt(2.0);  ///< deviation at an edge over that of a linear field
@@ -93,8 +93,8 @@ std::vector<Spectrum> neighbour_errors(const RadiositySolution& solution, const 
         if (form_factor == 0 || solution.reflectance[j].is_zero()) continue;
         const Seen seen = seen_of(solution.mesh.patches()[j], here, balls[j].centre);
         linear += form_factor * (solution.reflectance[j] * linear_deviation(solution, j, seen.centroid));
-        unresolved += form_factor * std::max(0.0, 1 - seen.fraction / spot) *
-                      (solution.reflectance[j] * solution.irradiance[j]);
+        unresolved +=
+            form_factor * std::max(0.0, 1 - seen.fraction / spot) * (solution.reflectance[j] * solution.irradiance[j]);
       }
       errors[static_cast<std::size_t>(i)] = concave_edge * abs(linear) + unresolved;
     }

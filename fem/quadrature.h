@@ -35,7 +35,8 @@ Rule quad_rule(int points);
 Rule triangle_rule(int degree);
 
 /// Rules of degree 3 with nodes in the corners, the middles of the sides and the centroid, the first: Simpson's on
-/// quads, on triangles 9/20 at the centroid, 2/15 at each middle, 1/20 at each corner [Hammer, Stroud 1956].  Test: tests/fem/quadrature.cpp, by all monomials.
+/// quads, on triangles 9/20 at the centroid, 2/15 at each middle, 1/20 at each corner [Hammer, Stroud 1956].  Test:
+/// tests/fem/quadrature.cpp, by all monomials.
 Rule closed_triangle_rule();
 Rule closed_quad_rule();
 

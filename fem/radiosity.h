@@ -25,7 +25,7 @@ struct RadiositySettings {
   std::uint64_t samples = 0;  ///< of Monte Carlo methods: a pair, a row, or in all; 0: as tolerances ask
   int resolution = 256;       ///< cells across a hemicube or a plane
   double drop_below = 0;  ///< entries with F_ij and F_ji below it are left out, and accounted for; 0: all are stored
-  std::string closure = "none";  ///< or a repair of row sums by its name in closure.h
+  std::string closure = "none";           ///< or a repair of row sums by its name in closure.h
   std::uint64_t environment_rays = 1296;  ///< an element: what of it sees no other, where an open scene's closure asks
   double max_memory = 4e9;                ///< [bytes]
   /// Where K comes from instead of `form_factors`, if there is such a source: entries of all pairs of these elements,
@@ -85,7 +85,8 @@ struct RadiositySolution {
   /// Estimated bound on |bias| of the element's mean H: discretisation, quadrature, solver, closure.
   std::vector<Spectrum> irradiance_error;
   std::vector<Spectrum> irradiance_noise;  ///< standard error of H from sampled visibility, all in all
-  Spectrum shared_noise;  ///< the part of it that is one and the same deviation in all elements; the rest is independent
+  Spectrum
+      shared_noise;  ///< the part of it that is one and the same deviation in all elements; the rest is independent
   /// |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h.
   std::vector<Spectrum> field_error;
   std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size: its parent's value

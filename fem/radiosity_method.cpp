@@ -24,7 +24,8 @@ std::uint64_t key_of(const measure::PointIrradiance& at) {
   return core::key_of({at.position.x(), at.position.y(), at.position.z(), at.normal.x(), at.normal.y(), at.normal.z()});
 }
 std::uint64_t key_of(const measure::PixelRadiance& pixel) {
-  return core::key_of({static_cast<double>(pixel.camera.value), static_cast<double>(pixel.x), static_cast<double>(pixel.y)});
+  return core::key_of(
+      {static_cast<double>(pixel.camera.value), static_cast<double>(pixel.x), static_cast<double>(pixel.y)});
 }
 
 /// Answers one list, measurement by measurement: everything here is read only.
@@ -82,16 +83,17 @@ void Answers::add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& til
       const scene::SurfacePatch& element = s_.mesh.patches()[i];
       if (std::abs(normal.dot(element.corner[0] - patch.corner[0])) > plane || element.normal().dot(normal) < 0.999)
         continue;
-      if (const double area = geometry::overlap_area(element.ring(), patch.ring()); area > 0.0) tiles.push_back({i, area});
+      if (const double area = geometry::overlap_area(element.ring(), patch.ring()); area > 0.0)
+        tiles.push_back({i, area});
     }
   }
 }
 
 /// The flux that arrives on elements and parts of elements: sum of area times irradiance, elements in their order.
 ///
-/// Of an element that is cut, constants know no more than the mean: its variation is added to the bound, by the cut part's
-/// share.  Noise: what elements have of their own is added in squares (twice, where elements of the region may see each other,
-/// so that they share random numbers: (a + b)² <= 2 a² + 2 b²), what all have in common as it is.
+/// Of an element that is cut, constants know no more than the mean: its variation is added to the bound, by the cut
+/// part's share.  Noise: what elements have of their own is added in squares (twice, where elements of the region may
+/// see each other, so that they share random numbers: (a + b)² <= 2 a² + 2 b²), what all have in common as it is.
 Estimate Answers::arriving_on(std::vector<Tile> tiles, bool plane) const {
   std::sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) { return a.element < b.element; });
   Estimate flux{Spectrum(), Spectrum(), Spectrum(), Claim::estimated, 0};
@@ -175,7 +177,8 @@ Estimate Answers::operator()(const measure::PointIrradiance& asked) const {
   const Spectrum halving = abs(irradiance(gathered, halving_)), noise = irradiance_noise(gathered, s_.radiosity);
   Spectrum error = from_elements;  // the elements' own bounds, reflected: what the gather inherits
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(halving[c], 0.05 * sizes[c]);
-  return {irradiance(gathered, s_.radiosity), sqrt(noise * noise + own_variance + shared * shared), error, Claim::estimated, gathered.rays};
+  return {irradiance(gathered, s_.radiosity), sqrt(noise * noise + own_variance + shared * shared), error,
+          Claim::estimated, gathered.rays};
 }
 
 Estimate Answers::operator()(const measure::PixelRadiance& asked) const {

@@ -14,8 +14,9 @@ struct RadiosityOperator {
   PairCounts pairs;
   /// sum_b bound_ab / A_a of what was not sampled; empty unless `row_tolerance`, `closure` or stored factors need it.
   std::vector<double> row_bound;
-  double largest_row_error = 0;  ///< max_a sum_b (bound_ab + 1.96 standard_error_ab) / A_a; 0 where `row_bound` is empty
-  bool tolerance_met = true;     ///< `row_tolerance`, where there is one
+  double largest_row_error =
+      0;                      ///< max_a sum_b (bound_ab + 1.96 standard_error_ab) / A_a; 0 where `row_bound` is empty
+  bool tolerance_met = true;  ///< `row_tolerance`, where there is one
 };
 
 /// What a method is made for, of those settings.

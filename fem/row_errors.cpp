@@ -29,8 +29,8 @@ std::vector<Index> rows_above(double tolerance, std::span<const double> errors) 
 }
 
 /// Every pair of which at least one is among `rows`, ascending: a pair of two of them once.
-PairCounts assemble_rows_again(const FormFactorMethod& method, std::span<const Index> rows, std::span<const scene::SurfacePatch> patches,
-                               ExchangeSink& sink, Run& run) {
+PairCounts assemble_rows_again(const FormFactorMethod& method, std::span<const Index> rows,
+                               std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
   const auto n = static_cast<Index>(patches.size());
   core::Progress::Stage stage(run.progress, "form factors, again", static_cast<std::uint64_t>(rows.size()));
   PairCounts total;
@@ -92,7 +92,9 @@ void RowErrors::count(Index a, double error) {
   sum_[at].fetch_add(static_cast<std::uint64_t>(units < most ? units : most), std::memory_order_relaxed);
 }
 
-double RowErrors::of(Index a) const { return unit * static_cast<double>(sum_[static_cast<std::size_t>(a)].load(std::memory_order_relaxed)); }
+double RowErrors::of(Index a) const {
+  return unit * static_cast<double>(sum_[static_cast<std::size_t>(a)].load(std::memory_order_relaxed));
+}
 
 std::vector<double> RowErrors::all() const {
   std::vector<double> errors;
@@ -130,8 +132,8 @@ ToleranceReport until_rows_meet(double tolerance, const MethodMaker& make, RowAs
   return report;
 }
 
-ToleranceReport assemble_to_tolerance(const MethodMaker& make, double tolerance, std::span<const scene::SurfacePatch> patches,
-                                      ExchangeSink& sink, Run& run) {
+ToleranceReport assemble_to_tolerance(const MethodMaker& make, double tolerance,
+                                      std::span<const scene::SurfacePatch> patches, ExchangeSink& sink, Run& run) {
   SinkAssembly assembly(patches, sink, run);
   return until_rows_meet(tolerance, make, assembly);
 }

@@ -35,8 +35,8 @@ class RowErrors final : public ExchangeSink {
   std::vector<std::uint8_t> counts_;  ///< rows that count
 };
 
-/// The relative tolerance of entries with which rows mostly meet theirs: errors come out far smaller than what entries may have, and many
-/// entries have none.
+/// The relative tolerance of entries with which rows mostly meet theirs: errors come out far smaller than what entries
+/// may have, and many entries have none.
 double entry_tolerance(double of_rows);
 
 struct ToleranceReport {
@@ -57,14 +57,16 @@ class RowAssembly {
   virtual std::vector<double> row_errors() const = 0;
   virtual PairCounts counts() const = 0;
 };
-/// Computes everything, and again the rows whose errors are above the tolerance, to a quarter each time, six times at most.
+/// Computes everything, and again the rows whose errors are above the tolerance, to a quarter each time, six times at
+/// most.
 ToleranceReport until_rows_meet(double tolerance, const MethodMaker& make, RowAssembly& assembly);
 
 /// All entries with max_a e_a <= tolerance.
 ///
-/// Entries are first computed to a relative tolerance that makes rows meet it (sum_b F_ab <= 1).  Rows that do not, because some of their
-/// entries' errors came out larger than asked for, are done again to a quarter, and so on; what they have in common with others counts
-/// there as before, which is cautious.  Only pair methods can be asked for rows again; of others the report says what came out.
+/// Entries are first computed to a relative tolerance that makes rows meet it (sum_b F_ab <= 1).  Rows that do not,
+/// because some of their entries' errors came out larger than asked for, are done again to a quarter, and so on; what
+/// they have in common with others counts there as before, which is cautious.  Only pair methods can be asked for rows
+/// again; of others the report says what came out.
 /// @param make  the method to a relative tolerance
 /// @throws core::Interrupted
 ToleranceReport assemble_to_tolerance(const MethodMaker& make, double tolerance,

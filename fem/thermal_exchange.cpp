@@ -19,7 +19,8 @@ void require_thermal(const scene::Scene& scene) {
   for (const scene::SurfaceId id : scene.surface_ids()) {
     const scene::Material& material = scene.material(id);
     if (!material.thermal)
-      throw core::InputError("material '" + material.name + "'", "an emissivity with a temperature or a heat flux expected");
+      throw core::InputError("material '" + material.name + "'",
+                             "an emissivity with a temperature or a heat flux expected");
     temperature = temperature || material.thermal->temperature;
   }
   if (!temperature) throw core::InputError("no surface has a temperature: heat fluxes alone have no answer");
@@ -88,14 +89,15 @@ ThermalSurface surface_of(const scene::Scene& scene, const RadiositySolution& s,
 std::vector<ThermalState> states_of(const scene::Scene& scene, const RadiositySolution& s, double environment) {
   std::vector<ThermalState> states;
   for (std::size_t i = 0; i < s.radiosity.size(); ++i)
-    states.push_back(state_of(*scene.material(s.mesh.patches()[i].surface).thermal, s.radiosity[i][0], s.irradiance[i][0],
-                              environment));
+    states.push_back(state_of(*scene.material(s.mesh.patches()[i].surface).thermal, s.radiosity[i][0],
+                              s.irradiance[i][0], environment));
   return states;
 }
 
 }  // namespace
 
-ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment, Run& run) {
+ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment,
+                               Run& run) {
   require_thermal(scene);
   ThermalExchange out{{}, {}, 0, 0, solve_radiosity(shifted(scene, environment), settings, run)};
   const RadiositySolution& s = out.solution;
@@ -107,8 +109,8 @@ ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySetting
   for (std::size_t k = 0; k < out.surfaces.size(); ++k) {
     const mesh::ElementMesh::Part& part = s.mesh.parts()[k];
     const auto first = out.elements.begin() + part.first;
-    out.surfaces[k].without_temperature =
-        std::count_if(first, first + part.count, [](const ThermalState& state) { return std::isnan(state.temperature); });
+    out.surfaces[k].without_temperature = std::count_if(
+        first, first + part.count, [](const ThermalState& state) { return std::isnan(state.temperature); });
   }
   out.to_environment = s.energy.escaped[0] + s.energy.on_backs[0];
   return out;

@@ -29,8 +29,8 @@ struct ThermalSurface : ThermalState {
 struct ThermalExchange {
   std::vector<ThermalSurface> surfaces;
   std::vector<ThermalState> elements;  ///< of solution.mesh; a temperature is NaN where more is taken than arrives
-  double emitted = 0;         ///< sum q A over the surfaces, net [W]: what goes to the environment
-  double to_environment = 0;  ///< the same found from what leaves through openings, and onto black backs [W]
+  double emitted = 0;                  ///< sum q A over the surfaces, net [W]: what goes to the environment
+  double to_environment = 0;           ///< the same found from what leaves through openings, and onto black backs [W]
   RadiositySolution solution;
 };
 
@@ -39,11 +39,13 @@ struct ThermalExchange {
 ///   B = e sigma T^4 + (1 - e) H    where T is given
 ///   B = q + H                      where q = B - H is,   and then   sigma T^4 = H + q / e
 ///
-/// The environment is black and at `environment` [K]: what surfaces see of it sends them sigma T_0^4.  All of it is radiosity of
-/// exitances e sigma (T^4 - T_0^4) and q in a cold environment, shifted by sigma T_0^4, since a uniform field is a solution.
+/// The environment is black and at `environment` [K]: what surfaces see of it sends them sigma T_0^4.  All of it is
+/// radiosity of exitances e sigma (T^4 - T_0^4) and q in a cold environment, shifted by sigma T_0^4, since a uniform
+/// field is a solution.
 /// @param settings  as of a solve; elements as there
 /// @throws core::InputError  a scene of more than one channel, a photometric one, a material without `emissivity`, or heat fluxes alone in a
 ///                           closed scene, which have no answer
-ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment, Run& run);
+ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment,
+                               Run& run);
 
 }  // namespace interflect::fem

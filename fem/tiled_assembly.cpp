@@ -35,7 +35,8 @@ std::vector<Tile> tiles_of(Index n, Index size) {
 
 /// Entries of one tile, as they come.
 struct TileSink final : ExchangeSink {
-  explicit TileSink(const Tile& of) : tile(of), K(static_cast<std::size_t>(of.rows.count * of.columns.count), 0), error(K) {}
+  explicit TileSink(const Tile& of)
+      : tile(of), K(static_cast<std::size_t>(of.rows.count * of.columns.count), 0), error(K) {}
 
   void add(Index a, Index b, const ExchangeEntry& entry) override {
     set(a, b, entry);
@@ -57,7 +58,8 @@ struct TileSink final : ExchangeSink {
 /// All entries, for methods that cannot be asked for a tile.
 class WholeSink final : public ExchangeSink {
  public:
-  explicit WholeSink(Index n) : n_(n), K_(static_cast<std::size_t>(n * n), 0), error_(static_cast<std::size_t>(n * n), 0) {}
+  explicit WholeSink(Index n)
+      : n_(n), K_(static_cast<std::size_t>(n * n), 0), error_(static_cast<std::size_t>(n * n), 0) {}
   void add(Index a, Index b, const ExchangeEntry& entry) override {
     for (const auto at : {static_cast<std::size_t>(a * n_ + b), static_cast<std::size_t>(b * n_ + a)}) {
       K_[at] = entry.K;

@@ -12,9 +12,10 @@ namespace interflect::fem {
 ///
 ///   K = w v_a + (1 - w) v_b,   w = e_b² / (e_a² + e_b²)
 ///
-/// which is the least noisy mean of independent ones; but w = weight_a / (weight_a + weight_b) where both rows have been given
-/// weights, since errors that are estimated from the same few hits as K would favour the view that is too low.  The bound of the
-/// mean is the mean of the bounds, but where nothing was sampled at least half of what the views disagree by.
+/// which is the least noisy mean of independent ones; but w = weight_a / (weight_a + weight_b) where both rows have
+/// been given weights, since errors that are estimated from the same few hits as K would favour the view that is too
+/// low.  The bound of the mean is the mean of the bounds, but where nothing was sampled at least half of what the views
+/// disagree by.
 class TwoViews final : public ExchangeSink {
  public:
   explicit TwoViews(Index elements);

@@ -19,8 +19,9 @@ struct ConvexRing {
 
 /// The part of a convex polygon in front of a plane, its orientation kept.
 ///
-/// A corner on the plane belongs to the front.  A new corner is computed from the front end of its edge, so that neighbours
-/// that share the edge get the same bits.  A polygon that meets the closed front in an edge or a corner alone leaves nothing.
+/// A corner on the plane belongs to the front.  A new corner is computed from the front end of its edge, so that
+/// neighbours that share the edge get the same bits.  A polygon that meets the closed front in an edge or a corner
+/// alone leaves nothing.
 /// @param ring  convex, at most ConvexRing::capacity - 1 corners
 inline ConvexRing clip(std::span<const Vec3> ring, const Plane& plane) {
   assert(ring.size() < static_cast<std::size_t>(ConvexRing::capacity));

@@ -17,9 +17,9 @@ struct HalfSpace {
 
 /// Something convex that hides what lies beyond it: a flat polygon, or a solid.
 ///
-/// From an eye outside, a solid hides the cone over its outline, beyond its front: the intersection of one half-space for
-/// each edge between a face that fronts the eye and one that does not (the plane through the eye and the edge), and, where
-/// that matters, of those behind the fronting faces.  A flat polygon is a solid of two faces.
+/// From an eye outside, a solid hides the cone over its outline, beyond its front: the intersection of one half-space
+/// for each edge between a face that fronts the eye and one that does not (the plane through the eye and the edge),
+/// and, where that matters, of those behind the fronting faces.  A flat polygon is a solid of two faces.
 class ConvexBlocker {
  public:
   /// @param ring  planar, convex, 3 corners or more [m]   @throws Defect  without an area
@@ -37,8 +37,9 @@ class ConvexBlocker {
   std::span<const Ring> faces() const { return rings_; }  ///< one, for a polygon
   bool flat() const { return rings_.size() == 1; }
 
-  /// Appends the half-spaces whose intersection is hidden from `eye`; false, and nothing, where the eye sees no face of it: it lies in the
-  /// plane of a polygon, or in the solid or on its surface, where the faces one by one are what hides.
+  /// Appends the half-spaces whose intersection is hidden from `eye`; false, and nothing, where the eye sees no face of
+  /// it: it lies in the plane of a polygon, or in the solid or on its surface, where the faces one by one are what
+  /// hides.
   /// @param rounding  an eye as near to a face's plane does not see that face [m]
   bool append_shadow(const Vec3& eye, double rounding, std::vector<HalfSpace>& shadow) const;
 
@@ -55,8 +56,8 @@ struct BlockingTriangle {
   bool dark_back;              ///< nothing leaves its back, so that what it bounds may be taken for solid
 };
 
-/// Triangles as few convex blockers: those of one plane that share an edge are joined as long as they stay convex, and closed convex
-/// polyhedra with dark backs become solids.
+/// Triangles as few convex blockers: those of one plane that share an edge are joined as long as they stay convex, and
+/// closed convex polyhedra with dark backs become solids.
 /// @param rounding  of coordinates [m]
 std::vector<ConvexBlocker> convex_blockers(std::span<const BlockingTriangle> triangles, double rounding);
 

@@ -26,7 +26,8 @@ class Joining {
     for (const BlockingTriangle& t : triangles) {
       const Vec3 area = vector_area(t.corner);
       if (!(area.norm() > 0)) continue;
-      faces_.push_back({{number_of(t.corner[0]), number_of(t.corner[1]), number_of(t.corner[2])}, area.normalized(), t.dark_back});
+      faces_.push_back(
+          {{number_of(t.corner[0]), number_of(t.corner[1]), number_of(t.corner[2])}, area.normalized(), t.dark_back});
     }
     owner_.resize(faces_.size());
     std::iota(owner_.begin(), owner_.end(), std::uint32_t{0});
@@ -47,7 +48,8 @@ class Joining {
 
  private:
   Corner number_of(const Vec3& x) {
-    const auto [found, is_new] = numbers_.emplace(std::array{x.x() + 0.0, x.y() + 0.0, x.z() + 0.0}, static_cast<Corner>(corners_.size()));
+    const auto [found, is_new] =
+        numbers_.emplace(std::array{x.x() + 0.0, x.y() + 0.0, x.z() + 0.0}, static_cast<Corner>(corners_.size()));
     if (is_new) corners_.push_back(x);
     return found->second;
   }
@@ -61,12 +63,14 @@ class Joining {
     return ring;
   }
 
-  /// Which faces have a directed edge on their left; those that run along it with another in the same direction are told apart by a null.
+  /// Which faces have a directed edge on their left; those that run along it with another in the same direction are
+  /// told apart by a null.
   std::map<DirectedEdge, std::optional<std::uint32_t>> edges() const {
     std::map<DirectedEdge, std::optional<std::uint32_t>> edges;
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = 0; k < faces_[f].corner.size(); ++k) {
-        const auto [found, is_new] = edges.emplace(DirectedEdge{faces_[f].corner[k], faces_[f].corner[(k + 1) % faces_[f].corner.size()]}, f);
+        const auto [found, is_new] =
+            edges.emplace(DirectedEdge{faces_[f].corner[k], faces_[f].corner[(k + 1) % faces_[f].corner.size()]}, f);
         if (!is_new) found->second.reset();
       }
     return edges;
@@ -92,7 +96,8 @@ class Joining {
     if (a.dark_back != b.dark_back || a.normal.dot(b.normal) <= 0) return std::nullopt;
     const Vec3& origin = corners_[edge.first];
     const auto off_plane = [&](const Face& of, const Vec3& normal) {
-      return std::any_of(of.corner.begin(), of.corner.end(), [&](Corner c) { return std::abs(normal.dot(corners_[c] - origin)) > rounding_; });
+      return std::any_of(of.corner.begin(), of.corner.end(),
+                         [&](Corner c) { return std::abs(normal.dot(corners_[c] - origin)) > rounding_; });
     };
     if (off_plane(b, a.normal) || off_plane(a, b.normal)) return std::nullopt;
     const auto rotated = [](std::vector<Corner> ring, Corner first) {

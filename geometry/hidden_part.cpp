@@ -26,8 +26,8 @@ void HiddenPart::hide(std::span<const HalfSpace> shadow) {
   }
 }
 
-/// Cuts what is outside off rest_, half-space after half-space, and adds it to the seen; false, and the seen unchanged, where nothing is
-/// left in the end.
+/// Cuts what is outside off rest_, half-space after half-space, and adds it to the seen; false, and the seen unchanged,
+/// where nothing is left in the end.
 bool HiddenPart::cut(std::span<const HalfSpace> shadow) {
   const RingList::Mark before = seen_.mark();
   for (const HalfSpace& half : shadow) {

@@ -33,14 +33,14 @@ class RingList {
   std::vector<std::uint32_t> ends_;
 };
 
-/// Which part of a convex polygon is hidden from an eye by convex blockers, and which is seen: both as disjoint convex polygons whose
-/// union is the whole, up to rounding ([Nishita, Nakamae 1985] subtract the projections of occluders).
+/// Which part of a convex polygon is hidden from an eye by convex blockers, and which is seen: both as disjoint convex
+/// polygons whose union is the whole, up to rounding ([Nishita, Nakamae 1985] subtract the projections of occluders).
 ///
-/// Nothing is projected: each blocker's shadow is an intersection of half-spaces, so that neither blockers across the eye's horizon
-/// nor polygons beyond a blocker's plane are special.  A decision whose sign rounding may turn moves a sliver as wide as
-/// the rounding from one side to the other; it can neither lose a piece nor count one twice, since every cut makes two
-/// pieces of one.  So areas are right to about 1e-15 of the whole per cut, without exact arithmetic.
-/// Test: tests/geometry/hidden_part.cpp, against exact polygon booleans.
+/// Nothing is projected: each blocker's shadow is an intersection of half-spaces, so that neither blockers across the
+/// eye's horizon nor polygons beyond a blocker's plane are special.  A decision whose sign rounding may turn moves a
+/// sliver as wide as the rounding from one side to the other; it can neither lose a piece nor count one twice, since
+/// every cut makes two pieces of one.  So areas are right to about 1e-15 of the whole per cut, without exact
+/// arithmetic. Test: tests/geometry/hidden_part.cpp, against exact polygon booleans.
 class HiddenPart {
  public:
   /// All corners relative to the eye.

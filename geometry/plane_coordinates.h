@@ -4,8 +4,9 @@
 
 namespace interflect::geometry {
 
-/// The two coordinates that remain when a plane is looked at along the axis nearest to its normal.  Nothing is computed, so
-/// what is collinear in space stays so to the last bit; the order of the axes keeps counter-clockwise rings so.
+/// The two coordinates that remain when a plane is looked at along the axis nearest to its normal.  Nothing is
+/// computed, so what is collinear in space stays so to the last bit; the order of the axes keeps counter-clockwise
+/// rings so.
 class AxisShadow {
  public:
   explicit AxisShadow(const Vec3& normal) {

@@ -17,8 +17,8 @@ class Defect : public std::runtime_error {
 
 using Ring = std::vector<Vec3>;  ///< corners [m] of a closed polyline, the last joined to the first
 
-/// A planar polygon with holes.  The outer ring runs counter-clockwise around the front side; holes lie inside it, run either
-/// way and do not touch.
+/// A planar polygon with holes.  The outer ring runs counter-clockwise around the front side; holes lie inside it, run
+/// either way and do not touch.
 struct PlanarPolygon {
   Ring outer;
   std::vector<Ring> holes;
@@ -46,8 +46,8 @@ double relative_planarity_error(const PlanarPolygon& polygon);
 /// A polygon counts as planar if its `relative_planarity_error` is at most this.
 inline constexpr double planarity_tolerance = 1e-6;
 
-/// Throws Defect in one sentence if the polygon has fewer than three corners, a coordinate that is not finite, no area, is not
-/// planar, crosses itself, or has a hole that is not inside.
+/// Throws Defect in one sentence if the polygon has fewer than three corners, a coordinate that is not finite, no area,
+/// is not planar, crosses itself, or has a hole that is not inside.
 void require_valid(const PlanarPolygon& polygon);
 
 }  // namespace interflect::geometry

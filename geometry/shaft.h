@@ -10,18 +10,18 @@
 
 namespace interflect::geometry {
 
-/// The region in which something must lie to block light between two convex polygons: a superset of their convex hull's part
-/// in front of both.
+/// The region in which something must lie to block light between two convex polygons: a superset of their convex hull's
+/// part in front of both.
 ///
-/// It is bounded by the planes of the two polygons and, for each edge of either, by the plane through that edge that supports
-/// the other ([Haines, Wallace 1991] "Shaft culling for efficient ray-traced radiosity", with the hull itself in place of boxes).
-/// Every plane is moved out until both polygons are inside, by their corners: whatever the configuration (touching, coplanar,
-/// one reaching behind the other), a shaft may be too wide and never too narrow.  What lies in the plane of one of the polygons,
-/// or behind it, blocks nothing: light leaves to the front.
+/// It is bounded by the planes of the two polygons and, for each edge of either, by the plane through that edge that
+/// supports the other ([Haines, Wallace 1991] "Shaft culling for efficient ray-traced radiosity", with the hull itself
+/// in place of boxes). Every plane is moved out until both polygons are inside, by their corners: whatever the
+/// configuration (touching, coplanar, one reaching behind the other), a shaft may be too wide and never too narrow.
+/// What lies in the plane of one of the polygons, or behind it, blocks nothing: light leaves to the front.
 ///
-/// Rounding is covered by a margin of 1e-12 of the largest coordinate, or more where the caller knows of more: polygons that
-/// were brought here from far away carry the rounding of their coordinates there.  No heap, and no division but in plane
-/// normals.
+/// Rounding is covered by a margin of 1e-12 of the largest coordinate, or more where the caller knows of more: polygons
+/// that were brought here from far away carry the rounding of their coordinates there.  No heap, and no division but in
+/// plane normals.
 class Shaft {
  public:
   static constexpr int most_corners = 6;  ///< of either polygon: a quad after two clips
@@ -45,7 +45,8 @@ class Shaft {
   bool may_block(const ConvexBlocker& blocker) const {
     for (int k = 0; k < planes_; ++k)
       if (outside(sides_[static_cast<std::size_t>(k)], blocker.corners())) return false;
-    return std::none_of(blocker.planes().begin(), blocker.planes().end(), [&](const Plane& face) { return hull_in_front(face); });
+    return std::none_of(blocker.planes().begin(), blocker.planes().end(),
+                        [&](const Plane& face) { return hull_in_front(face); });
   }
 
   /// False only if nothing in the box can lie between the polygons.
@@ -67,7 +68,8 @@ class Shaft {
   };
 
   static bool outside(const Side& side, std::span<const Vec3> corners) {
-    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& x) { return side.normal.dot(x) <= side.offset; });
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Vec3& x) { return side.normal.dot(x) <= side.offset; });
   }
   bool hull_in_front(const Plane& face) const {
     for (int k = 0; k < corners_; ++k)

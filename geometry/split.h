@@ -10,7 +10,8 @@ namespace interflect::geometry {
 
 enum class HalfSide { inside, outside, across };
 
-/// Where a ring lies; fills the corners' distances.  A ring in the boundary alone counts as outside: it has no part within.
+/// Where a ring lies; fills the corners' distances.  A ring in the boundary alone counts as outside: it has no part
+/// within.
 inline HalfSide side_of(std::span<const Vec3> ring, const HalfSpace& half, std::vector<double>& distance) {
   distance.resize(ring.size());
   double lowest = half.normal.dot(ring[0]) - half.offset, highest = lowest;
@@ -25,7 +26,8 @@ inline HalfSide side_of(std::span<const Vec3> ring, const HalfSpace& half, std::
 }
 
 /// Both parts of a ring that lies across; corners in the boundary belong to both.
-inline void split(std::span<const Vec3> ring, std::span<const double> distance, std::vector<Vec3>& inside, std::vector<Vec3>& outside) {
+inline void split(std::span<const Vec3> ring, std::span<const double> distance, std::vector<Vec3>& inside,
+                  std::vector<Vec3>& outside) {
   inside.clear();
   outside.clear();
   for (std::size_t k = 0; k < ring.size(); ++k) {

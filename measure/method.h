@@ -23,8 +23,10 @@ class Method {
   virtual ~Method() = default;
   virtual std::string name() const = 0;
   virtual Capabilities capabilities() const = 0;
-  /// One estimate per measurement, in their order.  The whole list at once: some methods answer all from the same samples.
-  virtual std::vector<Estimate> answer(const scene::Scene& scene, std::span<const Measurement> asked, Run& run) const = 0;
+  /// One estimate per measurement, in their order.  The whole list at once: some methods answer all from the same
+  /// samples.
+  virtual std::vector<Estimate> answer(const scene::Scene& scene, std::span<const Measurement> asked,
+                                       Run& run) const = 0;
 };
 
 }  // namespace interflect::measure

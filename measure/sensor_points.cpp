@@ -19,8 +19,8 @@ bool covers(const scene::Facet& facet, const Vec3& x, double tolerance) {
   return true;
 }
 
-/// The point as it is asked: moved onto the plane of the facet that it lies on, if it lies on one, so that no method starts
-/// below the surface because a file gives coordinates to nine digits.
+/// The point as it is asked: moved onto the plane of the facet that it lies on, if it lies on one, so that no method
+/// starts below the surface because a file gives coordinates to nine digits.
 PointIrradiance placed(const scene::Scene& scene, const Vec3& x, const Vec3& normal, double tolerance) {
   for (const scene::Facet& facet : scene.facets) {
     const double height = facet.normal.dot(x - facet.corner[0]);
@@ -53,7 +53,8 @@ std::vector<SensorPoint> sensor_points(const scene::Scene& scene) {
   std::vector<SensorPoint> points;
   for (const scene::Sensor& sensor : scene.sensors) {
     const auto* grid = std::get_if<scene::SensorGrid>(&sensor.where);
-    const std::vector<Vec3> positions = grid != nullptr ? grid_points(*grid) : std::get<std::vector<Vec3>>(sensor.where);
+    const std::vector<Vec3> positions =
+        grid != nullptr ? grid_points(*grid) : std::get<std::vector<Vec3>>(sensor.where);
     int index = 0;
     for (const Vec3& x : positions)
       points.push_back({sensor.name, index++, placed(scene, x, sensor.normal, tolerance)});

@@ -44,8 +44,8 @@ class ElementMesh {
   std::span<const Part> parts() const { return parts_; }
   double longest_edge() const { return longest_edge_; }  ///< [m]
 
-  /// The element that holds a point of a surface; nothing where that side has none.  Points on an edge belong to one of its
-  /// elements, and rounding never loses a point of the surface (the nearest element is taken).
+  /// The element that holds a point of a surface; nothing where that side has none.  Points on an edge belong to one of
+  /// its elements, and rounding never loses a point of the surface (the nearest element is taken).
   std::optional<ElementPoint> locate(const scene::SurfacePoint& point) const;
 
  private:

@@ -17,8 +17,8 @@ namespace interflect::mesh {
 /// @param area_each  of triangles where there is room [m²]
 double triangles_of_narrow_places(const geometry::PlanarPolygon& polygon, double area_each);
 
-/// Whether a corner of the outline is sharper than a degree.  Delaunay refinement fills a corner of t radians with more than 1 / t
-/// triangles: needles are better cut across.
+/// Whether a corner of the outline is sharper than a degree.  Delaunay refinement fills a corner of t radians with more
+/// than 1 / t triangles: needles are better cut across.
 bool has_needle(const geometry::PlanarPolygon& polygon);
 
 }  // namespace interflect::mesh

@@ -23,13 +23,15 @@ ElementMesh whole_faces(const scene::Scene& scene);
 /// Every element cut into four, at the midpoints of its edges: children 4i .. 4i+3 of element i, in order.
 ElementMesh quartered(const ElementMesh& mesh);
 
-/// About how many elements `uniform` makes, or would make, without making them: for forecasts.  Any number, infinity too.
+/// About how many elements `uniform` makes, or would make, without making them: for forecasts.  Any number, infinity
+/// too.
 double predicted_elements(const scene::Scene& scene, double max_edge);
 
 /// Edge length for about `elements` elements, to two digits [m].
 double edge_for(const scene::Scene& scene, double elements);
 
-/// Edge length with which this area alone, however it is cut up already, would be about `elements` triangles, to two digits [m].
+/// Edge length with which this area alone, however it is cut up already, would be about `elements` triangles, to two
+/// digits [m].
 double edge_for_area(double area, double elements);
 
 /// Area of all sides that light can leave [m²].

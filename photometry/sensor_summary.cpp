@@ -14,7 +14,8 @@ std::vector<SensorSummary> summarise(const scene::Scene& scene, std::span<const 
   std::vector<double> variances;  // of the sums
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double value = scene.weigh(values[k].value), noise = scene.weigh(values[k].standard_error);
-    auto s = std::find_if(summaries.begin(), summaries.end(), [&](const SensorSummary& o) { return o.sensor == points[k].sensor; });
+    auto s = std::find_if(summaries.begin(), summaries.end(),
+                          [&](const SensorSummary& o) { return o.sensor == points[k].sensor; });
     if (s == summaries.end()) {
       s = summaries.insert(summaries.end(), {points[k].sensor, 0, value, 0, value, 0});
       variances.push_back(0);
@@ -22,7 +23,7 @@ std::vector<SensorSummary> summarise(const scene::Scene& scene, std::span<const 
     ++s->points;
     s->minimum = std::min(s->minimum, value);
     s->maximum = std::max(s->maximum, value);
-    s->mean += value;                                  // sums until all points are in
+    s->mean += value;  // sums until all points are in
     s->error += scene.weigh(values[k].error_bound);
     variances[static_cast<std::size_t>(s - summaries.begin())] += noise * noise;
   }

@@ -10,12 +10,14 @@
 
 namespace interflect::photometry {
 
-/// What a lighting engineer reads off a sensor: irradiance or illuminance over its points, weighted over the channels [W/m² | lx].
+/// What a lighting engineer reads off a sensor: irradiance or illuminance over its points, weighted over the channels
+/// [W/m² | lx].
 struct SensorSummary {
   std::string sensor;
   int points = 0;
   double minimum = 0, mean = 0, maximum = 0;
-  /// Of the mean: the mean error bound and normal_95 standard errors of the mean; points are taken as independent in noise.
+  /// Of the mean: the mean error bound and normal_95 standard errors of the mean; points are taken as independent in
+  /// noise.
   double error = 0;
   double uniformity() const { return mean > 0 ? minimum / mean : 0; }  ///< U0 = E_min / E_avg
 };

@@ -77,8 +77,8 @@ void gather(const RTCFilterFunctionNArguments* at) {
   const unsigned n = at->N;
   for (unsigned k = 0; k < n; ++k) {
     if (at->valid[k] == 0) continue;
-    gathering.met.push_back(
-        {RTCRayN_tfar(at->ray, n, k), RTCHitN_primID(at->hit, n, k), RTCHitN_u(at->hit, n, k), RTCHitN_v(at->hit, n, k)});
+    gathering.met.push_back({RTCRayN_tfar(at->ray, n, k), RTCHitN_primID(at->hit, n, k), RTCHitN_u(at->hit, n, k),
+                             RTCHitN_v(at->hit, n, k)});
     at->valid[k] = 0;
   }
 }
@@ -174,8 +174,8 @@ class EmbreeCaster final : public RayCaster {
     query.id[lane] = query.flags[lane] = 0;
   }
 
-  /// Along the ray to the facet's plane, in double precision but where the ray grazes it: single precision does not tell the order of close
-  /// surfaces.
+  /// Along the ray to the facet's plane, in double precision but where the ray grazes it: single precision does not
+  /// tell the order of close surfaces.
   double distance(const Ray& ray, const Crossing& at) const {
     const scene::Facet& facet = facets_[at.facet];
     const double cosine = facet.normal.dot(ray.direction);
@@ -187,7 +187,8 @@ class EmbreeCaster final : public RayCaster {
   EmbreeScene filtered_scene() const {
     const KeepFloatingPointModes keep;
     EmbreeScene scene(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneFlags(scene.get(),
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     if (!facets_.empty()) rtcAttachGeometry(scene.get(), rtcGetGeometry(bvh_.get(), 0));
     rtcCommitScene(scene.get());
     require_no_error(device_.get());

@@ -18,8 +18,8 @@ const scene::Facet& pick_facet(const scene::Scene& scene, scene::SurfaceId surfa
   return facets.back();
 }
 
-Exposure expose(const scene::Scene& scene, const RayCaster& caster, scene::SurfaceId surface, scene::Side side, int rays,
-                std::uint64_t seed) {
+Exposure expose(const scene::Scene& scene, const RayCaster& caster, scene::SurfaceId surface, scene::Side side,
+                int rays, std::uint64_t seed) {
   int backs = 0, nothing = 0;
   const auto stream = 2 * surface.value + (side == scene::Side::back ? 1 : 0);
   for (int k = 0; k < rays; ++k) {

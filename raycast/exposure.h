@@ -12,8 +12,8 @@ namespace interflect::raycast {
 struct Exposure {
   scene::SurfaceId surface;
   scene::Side side;
-  double backs = 0;   ///< black backs: near 1 where the surface, or what surrounds it, is inside out
-  double nothing = 0; ///< openings
+  double backs = 0;           ///< black backs: near 1 where the surface, or what surrounds it, is inside out
+  double nothing = 0;         ///< openings
   double standard_error = 0;  ///< of `backs`, at most
 };
 

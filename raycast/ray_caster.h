@@ -12,8 +12,8 @@
 /// What a ray sees: the scene's facets as they were given, never an element mesh.
 namespace interflect::raycast {
 
-/// From `origin` along the unit vector `direction`.  A ray that leaves a surface says so by the surface's unit normal on the
-/// side it leaves from; zero where it starts in free space.
+/// From `origin` along the unit vector `direction`.  A ray that leaves a surface says so by the surface's unit normal
+/// on the side it leaves from; zero where it starts in free space.
 struct Ray {
   Vec3 origin, direction;
   Vec3 leaves = Vec3::Zero();
@@ -25,9 +25,10 @@ struct Segment {
   Vec3 from_normal = Vec3::Zero(), to_normal = Vec3::Zero();
 };
 
-/// Offset rule, for every implementation: an origin that lies on a surface is moved by `offset()` along the normal of the side
-/// it leaves from, and there is no other epsilon (tnear = 0).  The price: of light that grazes a perpendicular wall from a strip
-/// of width h beside it, a part of about 0.21 offset/h is lost; and two surfaces closer than `offset()` see through each other.
+/// Offset rule, for every implementation: an origin that lies on a surface is moved by `offset()` along the normal of
+/// the side it leaves from, and there is no other epsilon (tnear = 0).  The price: of light that grazes a perpendicular
+/// wall from a strip of width h beside it, a part of about 0.21 offset/h is lost; and two surfaces closer than
+/// `offset()` see through each other.
 class RayCaster {
  public:
   virtual ~RayCaster() = default;
@@ -35,10 +36,10 @@ class RayCaster {
 
   /// What the ray meets first; its position recomputed in double precision on the facet's plane.
   virtual std::optional<scene::SurfacePoint> closest(const Ray& ray) const = 0;
-  /// All that the ray meets, in the order of their distance, facets at the same place in the order of the scene; positions as in
-  /// `closest`. A line through an edge that two facets share may meet both.  By default one `closest` after the other, each hit
-  /// being left through its other side: of surfaces closer to each other than `offset()` some are missed; the scene's own casters
-  /// miss none.
+  /// All that the ray meets, in the order of their distance, facets at the same place in the order of the scene;
+  /// positions as in `closest`. A line through an edge that two facets share may meet both.  By default one `closest`
+  /// after the other, each hit being left through its other side: of surfaces closer to each other than `offset()` some
+  /// are missed; the scene's own casters miss none.
   /// @param hits  overwritten
   virtual void all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const;
   /// Is there anything strictly between the ends?

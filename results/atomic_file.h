@@ -7,9 +7,9 @@
 
 namespace interflect::results {
 
-/// A file that is written piece by piece under a temporary name beside its target, and takes the target's name when it is kept.
-/// One that is not kept disappears.
-/// Everything throws core::InputError: "out/F.npz: cannot be written: No space left on device".
+/// A file that is written piece by piece under a temporary name beside its target, and takes the target's name when it
+/// is kept. One that is not kept disappears. Everything throws core::InputError: "out/F.npz: cannot be written: No
+/// space left on device".
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);

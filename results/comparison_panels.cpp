@@ -13,11 +13,14 @@ namespace {
 
 constexpr int block = 6;  // pixels of a side
 
-/// A picture's means over blocks: its weighted value, or, of a picture of independent standard errors, that of the mean.
+/// A picture's means over blocks: its weighted value, or, of a picture of independent standard errors, that of the
+/// mean.
 struct Blocks {
   Blocks(int width, int height) : across(number_of(width)), mean(across * number_of(height)) {}
   static std::size_t number_of(int pixels) { return static_cast<std::size_t>((pixels + block - 1) / block); }
-  std::size_t of(int x, int y) const { return static_cast<std::size_t>(y / block) * across + static_cast<std::size_t>(x / block); }
+  std::size_t of(int x, int y) const {
+    return static_cast<std::size_t>(y / block) * across + static_cast<std::size_t>(x / block);
+  }
   double at(int x, int y) const { return mean[of(x, y)]; }
 
   std::size_t across;
@@ -59,8 +62,8 @@ double relative_difference(double fem, double traced, double noise) {
   return std::abs(fem - traced) > 3 * noise && mean > 0 ? (fem - traced) / mean : 0;
 }
 
-core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, const core::Image& traced, const core::Image& noise,
-                             double full_scale) {
+core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
+                             const core::Image& noise, double full_scale) {
   const Blocks a = block_means(scene, fem), b = block_means(scene, traced), error = block_noise(scene, noise);
   core::Image picture(fem.width, fem.height, {"R", "G", "B"});
   for (int y = 0; y < fem.height; ++y)
@@ -77,7 +80,9 @@ core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, 
 
 ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
                                    const core::Image& noise, double full_scale) {
-  const auto same_size = [&](const core::Image& other) { return other.width == fem.width && other.height == fem.height; };
+  const auto same_size = [&](const core::Image& other) {
+    return other.width == fem.width && other.height == fem.height;
+  };
   if (!same_size(traced) || !same_size(noise) || !(full_scale > 0))
     throw core::PreconditionError("comparison_panels: pictures of one size and a scale above 0 expected");
   const core::Image left = as_rgb(scene, fem), right = as_rgb(scene, traced);

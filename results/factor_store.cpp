@@ -43,7 +43,8 @@ void require_sizes(const Hdf5File& file, const std::string& name, const Sizes& s
 void require_digest(const Hdf5File& file, const std::string& stored, const std::string& expected) {
   if (stored != expected)
     throw core::InputError(file.path().string(), "its view factors are of another geometry (digest " +
-                                                     core::single_line(stored.substr(0, 40)) + ", not " + expected + ")");
+                                                     core::single_line(stored.substr(0, 40)) + ", not " + expected +
+                                                     ")");
 }
 
 std::vector<double> flat(const std::vector<Vec3>& points) {
@@ -244,7 +245,8 @@ void FactorStoreWriter::write_row_sums() {
   std::vector<float> error;
   for (Index I = 0; I < across_; ++I)
     for (Index J = I; J < across_; ++J) {
-      const std::size_t rows = size_of(count(I)), columns = size_of(count(J)), i0 = size_of(first(I)), j0 = size_of(first(J));
+      const std::size_t rows = size_of(count(I)), columns = size_of(count(J)), i0 = size_of(first(I)),
+                        j0 = size_of(first(J));
       K.resize(rows * columns);
       error.resize(rows * columns);
       store_->read("K", {i0, j0}, {rows, columns}, K.data());
@@ -302,7 +304,8 @@ FactorStore::FactorStore(const std::filesystem::path& file) : store_(Hdf5File::o
 
 void FactorStore::require_geometry(const std::string& digest) const { require_digest(store_, key_.digest, digest); }
 
-/// Rows first .. first + count, all within the tiles I: the tiles to the right as they lie, those above the diagonal turned.
+/// Rows first .. first + count, all within the tiles I: the tiles to the right as they lie, those above the diagonal
+/// turned.
 void FactorStore::read_tile_rows(Index I, Index first, Index count, double* K, double* error) const {
   const std::size_t n = size_of(size());
   std::vector<double> part;

@@ -13,7 +13,8 @@
 #include "results/factors.h"
 #include "results/hdf5_file.h"
 
-/// A matrix of view factors in an HDF5 file (docs/view_factor_files.md): the symmetric K_ij = A_i F_ij, computed tile by tile.
+/// A matrix of view factors in an HDF5 file (docs/view_factor_files.md): the symmetric K_ij = A_i F_ij, computed tile
+/// by tile.
 namespace interflect::results {
 
 /// What the numbers in a store depend on.
@@ -24,9 +25,9 @@ struct FactorStoreKey {
 
 /// A store that is being filled, under the name FILE.partial until it is finished: FILE is whole or the one of before.
 ///
-/// A tile (I, J), I <= J, holds K of the elements I tile .. and J tile .., the last tiles as many as there are.  A process
-/// that dies loses the tiles that it had not written; the next one goes on with the rest.  Every method may be called from
-/// any thread.
+/// A tile (I, J), I <= J, holds K of the elements I tile .. and J tile .., the last tiles as many as there are.  A
+/// process that dies loses the tiles that it had not written; the next one goes on with the rest.  Every method may be
+/// called from any thread.
 class FactorStoreWriter {
  public:
   /// Begins a store, or goes on with FILE.partial.
@@ -93,8 +94,8 @@ class FactorStore {
   /// @throws core::InputError  where that is not the digest of the geometry
   void require_geometry(const std::string& digest) const;
 
-  /// Whole rows first .. first + count of K [m²] and of its errors: count x size() numbers each, row by row.  Fastest for
-  /// multiples of tile().
+  /// Whole rows first .. first + count of K [m²] and of its errors: count x size() numbers each, row by row.  Fastest
+  /// for multiples of tile().
   void read_rows(Index first, Index count, std::span<double> K, std::span<double> error) const;
   Index tile() const { return tile_; }
 

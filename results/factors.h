@@ -8,7 +8,8 @@
 #include "core/vec.h"
 #include "scene/scene.h"
 
-/// View factors as files know them: what is written of the elements, rows of the matrix, and which geometry they belong to.
+/// View factors as files know them: what is written of the elements, rows of the matrix, and which geometry they belong
+/// to.
 namespace interflect::results {
 
 /// The elements between which view factors are; all lists have the same length.
@@ -26,9 +27,9 @@ FactorElements factor_elements(const scene::Scene& scene, std::span<const scene:
 /// Row i of F_ij = K_ij / A_i and of the errors of its entries [1].  Cheap where rows are asked for in ascending order.
 using FactorRows = std::function<void(Index i, std::span<double> F, std::span<double> error)>;
 
-/// 32 hexadecimal digits that stand for the shape of the scene's facets and of the elements: the same for the same coordinates,
-/// sides and order, bit by bit, and for practical purposes for no others.  Materials, names and lights do not count.  It guards
-/// against mistakes, not against malice.
+/// 32 hexadecimal digits that stand for the shape of the scene's facets and of the elements: the same for the same
+/// coordinates, sides and order, bit by bit, and for practical purposes for no others.  Materials, names and lights do
+/// not count.  It guards against mistakes, not against malice.
 std::string geometry_digest(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches);
 
 }  // namespace interflect::results

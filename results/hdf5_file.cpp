@@ -20,13 +20,15 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 /// The library has one state for the whole process and does not lock it.
 std::mutex& library_mutex() {
-  // All that is opened here is closed here.  Of damaged files the library loses track, and prints so when the program ends.
+  // All that is opened here is closed here.  Of damaged files the library loses track, and prints so when the program
+  // ends.
   [[maybe_unused]] static const herr_t no_clearing_up = H5dont_atexit();
   static std::mutex mutex;
   return mutex;
 }
 
-/// What the library remembers of its last failure: the system's word for it where there is one, else its innermost complaint.
+/// What the library remembers of its last failure: the system's word for it where there is one, else its innermost
+/// complaint.
 std::string last_complaint() {
   std::string said;
   const auto look = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
@@ -104,7 +106,8 @@ hid_t space_of(const Hdf5File::Sizes& sizes) {
   return sizes.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr);
 }
 
-/// Texts of a fixed width, filled up with zeros: where widths vary, the library follows whatever a damaged file points to.
+/// Texts of a fixed width, filled up with zeros: where widths vary, the library follows whatever a damaged file points
+/// to.
 hid_t text_type(std::size_t width) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, std::max<std::size_t>(width, 1));
@@ -182,8 +185,8 @@ hid_t plain_access(const Checks& check) {
   return how.release();
 }
 
-/// Where the disk is full before a file is laid out the library cannot close it, and follows what is no longer there when the
-/// program ends: so that is found out without it.
+/// Where the disk is full before a file is laid out the library cannot close it, and follows what is no longer there
+/// when the program ends: so that is found out without it.
 void require_room(const std::filesystem::path& file, const Hdf5File::Room& room) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   int error = descriptor < 0 ? errno : 0;
@@ -208,7 +211,8 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file, const Room& room) {
 Hdf5File Hdf5File::open(const std::filesystem::path& file, Access access) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw core::InputError(file.string(), "there is no such file");
-  if (!std::filesystem::is_regular_file(file, error)) throw core::InputError(file.string(), "this is not a regular file");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw core::InputError(file.string(), "this is not a regular file");
   const Turn turn;
   const htri_t is_hdf5 = H5Fis_hdf5(file.c_str());
   if (is_hdf5 == 0) throw core::InputError(file.string(), "this is not an HDF5 file");

@@ -8,15 +8,15 @@
 
 namespace interflect::results {
 
-/// An HDF5 file, opened: arrays of numbers and lists of texts under names, without a type of the library's.  A name may lie in a
-/// group: "sensors/F".
+/// An HDF5 file, opened: arrays of numbers and lists of texts under names, without a type of the library's.  A name may
+/// lie in a group: "sensors/F".
 ///
 /// Space is given to arrays when they are made, and nothing of them is kept in memory: a file whose arrays exist never
-/// changes its structure again, so that a process may die at any moment and leave a file that opens.  The space of what was
-/// never written is a hole of the file, where its system has such.
+/// changes its structure again, so that a process may die at any moment and leave a file that opens.  The space of what
+/// was never written is a hole of the file, where its system has such.
 ///
-/// Every call may come from any thread: they take turns.  What the library has to complain about comes as core::InputError
-/// with the file's name, in one line, and as nothing else.
+/// Every call may come from any thread: they take turns.  What the library has to complain about comes as
+/// core::InputError with the file's name, in one line, and as nothing else.
 class Hdf5File {
  public:
   enum class Access { read, change };

@@ -119,9 +119,12 @@ void NpzFile::begin(const std::string& name, const std::string& type, std::size_
   const bool large = entry.size >= zip64_from_;
   Fields extra;
   if (large) extra.u16(1).u16(16).u64(entry.size).u64(entry.size);
+  // The fields of these records, in their order:
+  // clang-format off
   emit(Fields().text("PK\3\4").u16(large ? version_zip64 : version_plain).u16(utf8_names).u16(0).u16(0).u16(january_1980)
            .u32(0).u32(large ? in_zip64 : entry.size).u32(large ? in_zip64 : entry.size)
            .u16(entry.name.size()).u16(extra.str().size()).text(entry.name).text(extra.str()).str());
+  // clang-format on
   crc_ = {};
   left_ = entry.size;
   put(header);
@@ -171,9 +174,11 @@ std::string NpzFile::directory_entry(const Entry& entry) const {
   }
   const std::uint64_t size = large ? in_zip64 : entry.size;
   const std::uint64_t version = large || far ? version_zip64 : version_plain;
+  // clang-format off
   return Fields().text("PK\1\2").u16(version).u16(version).u16(utf8_names).u16(0).u16(0).u16(january_1980).u32(entry.crc)
       .u32(size).u32(size).u16(entry.name.size()).u16(extra.str().size()).u16(0).u16(0).u16(0).u32(0)
       .u32(far ? in_zip64 : entry.position).text(entry.name).text(extra.str()).str();
+  // clang-format on
 }
 
 void NpzFile::keep() {
@@ -184,8 +189,10 @@ void NpzFile::keep() {
   const bool far = start >= zip64_from_;
   if (far) {
     const std::uint64_t here = position_;
+    // clang-format off
     emit(Fields().text("PK\6\6").u64(44).u16(version_zip64).u16(version_zip64).u32(0).u32(0).u64(count).u64(count)
              .u64(size).u64(start).str());
+    // clang-format on
     emit(Fields().text("PK\6\7").u32(0).u64(here).u32(1).str());
   }
   emit(Fields().text("PK\5\6").u16(0).u16(0).u16(count).u16(count).u32(size).u32(far ? in_zip64 : start).u16(0).str());

@@ -22,8 +22,8 @@ class Crc32 {
   std::uint32_t state_ = 0xFFFFFFFFu;
 };
 
-/// NumPy's archive of arrays: a zip file, nothing compressed, of one NAME.npy (format 1.0) an array.  Arrays stream through,
-/// of any size (zip64 where 4 GiB are not enough); the file is written as AtomicFile does.
+/// NumPy's archive of arrays: a zip file, nothing compressed, of one NAME.npy (format 1.0) an array.  Arrays stream
+/// through, of any size (zip64 where 4 GiB are not enough); the file is written as AtomicFile does.
 class NpzFile {
  public:
   /// @param zip64_from  sizes and positions from which on zip64 is used; other than its default for tests

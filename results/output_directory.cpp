@@ -32,8 +32,9 @@ void require_disk_room(const std::filesystem::path& directory, double bytes) {
   std::error_code error;
   const auto left = static_cast<double>(std::filesystem::space(directory, error).available);
   if (error || bytes <= left) return;  // whose system does not tell finds out by writing
-  throw core::InputError(directory.string(), core::format("up to %s are needed, and its disk has %s left", core::format_bytes(bytes).c_str(),
-                                                          core::format_bytes(left).c_str()));
+  throw core::InputError(directory.string(),
+                         core::format("up to %s are needed, and its disk has %s left",
+                                      core::format_bytes(bytes).c_str(), core::format_bytes(left).c_str()));
 }
 
 }  // namespace interflect::results

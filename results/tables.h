@@ -13,7 +13,8 @@
 /// The tables of a run; every method writes the same columns, so that runs join on the name.
 namespace interflect::results {
 
-/// Half the width of a 95 % interval: error_bound + normal_95 standard errors, per channel.  Infinite where the bound is.
+/// Half the width of a 95 % interval: error_bound + normal_95 standard errors, per channel.  Infinite where the bound
+/// is.
 Spectrum error_95(const Estimate& estimate);
 
 /// A side of a surface: area means [W/m² | lm/m², lx].

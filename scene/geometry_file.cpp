@@ -76,7 +76,8 @@ ExchangeScene read_mesh_scene(const std::filesystem::path& file, const GeometryO
   ExchangeScene out;
   if (options.whole_groups) {
     io::import_mesh(builder, mesh, materials, {}, shown);
-    for (const Surface& surface : scene.surfaces) out.surfaces.push_back({surface.name, ExchangeRole::radiates, std::nullopt});
+    for (const Surface& surface : scene.surfaces)
+      out.surfaces.push_back({surface.name, ExchangeRole::radiates, std::nullopt});
   } else {
     io::import_mesh(builder, face_by_face(mesh), materials, {}, shown);
     name_faces(scene, mesh, out.surfaces, shown);
@@ -102,7 +103,8 @@ ExchangeScene read_view3d_scene(const std::filesystem::path& file, const Geometr
 
 ExchangeScene read_scene_file(const std::filesystem::path& file, const GeometryOptions& options) {
   if (options.unit) throw core::InputError(file.string(), "a scene file says its own unit");
-  if (options.two_sided) throw core::InputError(file.string(), "a scene file says itself which surfaces have two sides");
+  if (options.two_sided)
+    throw core::InputError(file.string(), "a scene file says itself which surfaces have two sides");
   ExchangeScene out;
   out.scene = read_scene(file);
   for (const Surface& surface : out.scene.surfaces)

@@ -23,10 +23,10 @@ struct Inspection {
   bool has(Finding::Kind kind) const;
 };
 
-/// Open edges are found geometrically, T-junctions allowed: an edge is closed where collinear edges of other facets cover it, or where
-/// it lies on another facet, as the foot of a wall on a floor (within 1e-6 of the scene's diagonal).  What is open is a gap, but the rim
-/// of a two-sided surface is told apart: a sheet that stands free has one.  Normals are inconsistent where two one-sided neighbours
-/// run along their common edge in the same direction.
+/// Open edges are found geometrically, T-junctions allowed: an edge is closed where collinear edges of other facets
+/// cover it, or where it lies on another facet, as the foot of a wall on a floor (within 1e-6 of the scene's diagonal).
+/// What is open is a gap, but the rim of a two-sided surface is told apart: a sheet that stands free has one.  Normals
+/// are inconsistent where two one-sided neighbours run along their common edge in the same direction.
 Inspection inspect(const Scene& scene);
 
 /// Duplicate faces and coplanar overlaps alone.

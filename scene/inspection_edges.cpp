@@ -121,8 +121,8 @@ class EdgeInspection {
     return covers;
   }
 
-  /// Cuts the edge where its covers begin and end: a stretch without any is open; one with exactly one, an edge, has one neighbour,
-  /// which must run the other way.  Where more than two facets meet, no direction is wrong.
+  /// Cuts the edge where its covers begin and end: a stretch without any is open; one with exactly one, an edge, has
+  /// one neighbour, which must run the other way.  Where more than two facets meet, no direction is wrong.
   void judge(const Edge& e, const std::vector<Cover>& covers) {
     const double length = (e.to - e.from).norm();
     std::vector<double> cuts{0, length};
@@ -149,7 +149,8 @@ class EdgeInspection {
         close(begin);
       else if (open_from < 0)
         open_from = begin;
-      if (count == 1 && only->by && only->same_direction && e.facet < only->by->facet && one_sided(e) && one_sided(*only->by))
+      if (count == 1 && only->by && only->same_direction && e.facet < only->by->facet && one_sided(e) &&
+          one_sided(*only->by))
         oppose(e, *only->by, at((begin + end) / 2), end - begin);
     }
     close(length);

@@ -64,9 +64,9 @@ void find_coplanar_faces(const Scene& scene, double tolerance, Inspection& inspe
     const double larger = std::max(scene.area(SurfaceId{pair.first}), scene.area(SurfaceId{pair.second}));
     const bool duplicate =
         s.duplicated >= (1 - 1e-6) * s.area || (pair.first != pair.second && s.area >= (1 - 1e-6) * larger);
-    inspection.findings.push_back({duplicate ? Kind::duplicate_faces : Kind::coplanar_overlap,
-                                   scene.surfaces[pair.first].name,
-                                   pair.first == pair.second ? "" : scene.surfaces[pair.second].name, s.where, s.area, s.same_way});
+    inspection.findings.push_back(
+        {duplicate ? Kind::duplicate_faces : Kind::coplanar_overlap, scene.surfaces[pair.first].name,
+         pair.first == pair.second ? "" : scene.surfaces[pair.second].name, s.where, s.area, s.same_way});
   }
 }
 

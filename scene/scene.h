@@ -24,7 +24,8 @@ struct Facet {
   double area;                 ///< [m²]
 };
 
-/// An input surface: what a person names and asks about.  Its facets are scene.facets[first_facet .. first_facet + facets).
+/// An input surface: what a person names and asks about.  Its facets are scene.facets[first_facet .. first_facet +
+/// facets).
 struct Surface {
   std::string name;  ///< its sides' names (Scene::side_name) are unique in the scene
   MaterialId material;
@@ -69,10 +70,11 @@ struct Scene {
   std::string side_name(SurfaceId id, Side side) const;  ///< "NAME", or "NAME/back" for a back: unique in the scene
   std::optional<CameraId> find_camera(const std::string& name) const;
 
-  double area(SurfaceId id) const;        ///< of one side [m²]
-  geometry::Box box() const;              ///< of all facets [m]
-  double weigh(const Spectrum& s) const;  ///< sum_c weights[c] s[c], where a weight of 0 leaves out what is infinite too
-  Spectrum emitted_flux() const;          ///< sum of A E over the surfaces [W | lm]
+  double area(SurfaceId id) const;  ///< of one side [m²]
+  geometry::Box box() const;        ///< of all facets [m]
+  double weigh(
+      const Spectrum& s) const;   ///< sum_c weights[c] s[c], where a weight of 0 leaves out what is infinite too
+  Spectrum emitted_flux() const;  ///< sum of A E over the surfaces [W | lm]
   const char* irradiance_unit() const { return quantity == Quantity::photometric ? "lx" : "W/m2"; }
   const char* flux_unit() const { return quantity == Quantity::photometric ? "lm" : "W"; }
 

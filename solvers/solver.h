@@ -23,8 +23,9 @@ struct StoppingRule {
 struct SolverReport {
   enum class Stopped { converged, iteration_limit, asked_to, nothing_to_do };
   Stopped why = Stopped::iteration_limit;
-  int iterations = 0;                     ///< sweeps over the matrix
-  std::vector<double> residual_history{};  ///< relative, as in StoppingRule, one per iteration; the last is the result's
+  int iterations = 0;  ///< sweeps over the matrix
+  std::vector<double>
+      residual_history{};  ///< relative, as in StoppingRule, one per iteration; the last is the result's
   bool converged() const { return why == Stopped::converged || why == Stopped::nothing_to_do; }
   double residual() const { return residual_history.empty() ? 0.0 : residual_history.back(); }
 };

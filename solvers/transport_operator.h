@@ -10,14 +10,15 @@
 namespace interflect::solvers {
 
 using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Columns = Eigen::Ref<ColumnMatrix>;              ///< owned unknowns x (groups * channels)
+using Columns = Eigen::Ref<ColumnMatrix>;  ///< owned unknowns x (groups * channels)
 using ConstColumns = Eigen::Ref<const ColumnMatrix>;
 
 /// Rows of K, for solvers that need them: stored, or computed on demand.
 class RowAccess {
  public:
   virtual ~RowAccess() = default;
-  /// Rows first .. first + count of K into `out` (count x unknowns).  Reentrant: solvers share a block of rows among threads.
+  /// Rows first .. first + count of K into `out` (count x unknowns).  Reentrant: solvers share a block of rows among
+  /// threads.
   virtual void rows(Index first, Index count, Columns out) const = 0;
   virtual Index evaluated() const = 0;  ///< rows handed out so far: the work in plots of error against work
 };
@@ -29,10 +30,10 @@ class TransportOperator {
  public:
   virtual ~TransportOperator() = default;
   virtual const Layout& layout() const = 0;
-  virtual bool symmetric() const = 0;                                  ///< K = K^T exactly: Galerkin yes, collocation no
+  virtual bool symmetric() const = 0;  ///< K = K^T exactly: Galerkin yes, collocation no
   virtual void apply(ConstColumns b, Columns out, Run& run) const = 0;  ///< out = K b, all columns in one pass over K
-  virtual std::span<const double> gram() const = 0;                    ///< diagonal of G [m²]
-  virtual std::span<const double> self() const = 0;                    ///< K_aa [m²]
+  virtual std::span<const double> gram() const = 0;                     ///< diagonal of G [m²]
+  virtual std::span<const double> self() const = 0;                     ///< K_aa [m²]
   virtual const RowAccess* rows() const { return nullptr; }
 };
 

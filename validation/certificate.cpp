@@ -121,7 +121,8 @@ std::string verdict_of(const Certificate& certificate) {
       format("FEM within %s (L2 of H) of the path-traced reference, whose own 95 %% error is %s; bias %s",
              percent(norms.l2.high).c_str(), percent(norms.reference_error).c_str(),
              percent_interval(weighted.bias()).c_str());
-  return certificate.passed ? "Validated: " + measured : "Not validated: " + certificate.reasons.front() + "; " + measured;
+  return certificate.passed ? "Validated: " + measured
+                            : "Not validated: " + certificate.reasons.front() + "; " + measured;
 }
 
 }  // namespace

@@ -13,9 +13,10 @@
 namespace interflect::validation {
 
 struct Settings {
-  double share = 0.99;     ///< of the measurements that must agree, in every reading
-  double alpha = 0.01;     ///< probability that chance alone makes any z or mean of z count as significant; or any bias
-  double reference_limit = 0.02;  ///< largest 95 % error of the reference that a judgement may rest on (relative L2 of H)
+  double share = 0.99;  ///< of the measurements that must agree, in every reading
+  double alpha = 0.01;  ///< probability that chance alone makes any z or mean of z count as significant; or any bias
+  double reference_limit =
+      0.02;  ///< largest 95 % error of the reference that a judgement may rest on (relative L2 of H)
 };
 
 /// Where the flux goes [W | lm], per channel: emitted = absorbed + lost, but for errors.

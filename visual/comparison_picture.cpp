@@ -9,9 +9,10 @@ core::Image comparison_picture(const results::ComparisonPanels& panels, std::uin
   const double percent = 100 * full_scale;
   const Legend legend{"%", results::ColourMap::blue_white_red, {-percent, percent}, false, false};
   const std::string traced = "path traced, " + core::format_count(samples) + " samples a pixel";
-  return core::side_by_side({framed(panels.fem, "radiosity, element by element", nullptr), framed(panels.traced, traced, nullptr),
-                             framed(panels.difference, "(radiosity - path traced) / mean, white within 3 standard errors", &legend)},
-                            0);
+  return core::side_by_side(
+      {framed(panels.fem, "radiosity, element by element", nullptr), framed(panels.traced, traced, nullptr),
+       framed(panels.difference, "(radiosity - path traced) / mean, white within 3 standard errors", &legend)},
+      0);
 }
 
 }  // namespace interflect::visual

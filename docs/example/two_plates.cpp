@@ -1,8 +1,8 @@
-// Two unit squares that face each other at distance 1; the lower one glows.  How much light reaches the upper one, by finite
-// elements and by path tracing?
+// Two unit squares that face each other at distance 1; the lower one glows.  How much light reaches the upper one, by
+// finite elements and by path tracing?
 //
-// The integral equation's solution, by a Nystroem method on graded meshes, is a mean radiosity of 0.100947189 on the upper plate,
-// so that its mean irradiance, B / rho, is 0.201894378.
+// The integral equation's solution, by a Nystroem method on graded meshes, is a mean radiosity of 0.100947189 on the
+// upper plate, so that its mean irradiance, B / rho, is 0.201894378.
 
 #include <cstdio>
 

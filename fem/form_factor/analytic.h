@@ -4,8 +4,9 @@
 
 namespace interflect::fem {
 
-/// Form factors of pairs without rays and without noise: what hides parts of a pair is subtracted exactly, point by point, and integrated
-/// along the shadows' edges (exact_occlusion.h) [Nishita, Nakamae 1985].  Same numbers whatever the seed.
+/// Form factors of pairs without rays and without noise: what hides parts of a pair is subtracted exactly, point by
+/// point, and integrated along the shadows' edges (exact_occlusion.h) [Nishita, Nakamae 1985].  Same numbers whatever
+/// the seed.
 class Analytic final : public PairMethod {
  public:
   explicit Analytic(const FormFactorContext& context) : PairMethod(context) {}

@@ -30,12 +30,14 @@ class AreaToArea::Sampling {
     const ElementShape &a = m_.shapes_[i], &b = m_.shapes_[j];
     const bool swapped = b.area < a.area;
     from_ = swapped ? &b : &a, to_ = swapped ? &a : &b;
-    from_map_ = &m_.maps_[static_cast<std::size_t>(swapped ? j : i)], to_map_ = &m_.maps_[static_cast<std::size_t>(swapped ? i : j)];
+    from_map_ = &m_.maps_[static_cast<std::size_t>(swapped ? j : i)],
+    to_map_ = &m_.maps_[static_cast<std::size_t>(swapped ? i : j)];
     most_ = most_exchange(m_.context_.patches, i, j);
     by_solid_angle_ = (a.centroid - b.centroid).norm() < near * (a.radius + b.radius);
     clear_ = !m_.blockers_.any(geometry::Shaft(a.ring(), b.ring(), m_.shapes_.plane_tolerance()));
     for (std::uint32_t r = 0; r < randomisations; ++r)
-      shift_[r] = core::random_block(m_.seed_, static_cast<std::uint32_t>(i), static_cast<std::uint64_t>(j) * randomisations + r, 0);
+      shift_[r] = core::random_block(m_.seed_, static_cast<std::uint32_t>(i),
+                                     static_cast<std::uint64_t>(j) * randomisations + r, 0);
     seen_.fill(0);
     done_ = rays_ = blocked_rays_ = 0;
     sum_ = squares_ = 0;
@@ -154,7 +156,8 @@ AreaToArea::AreaToArea(const FormFactorContext& context)
   for (std::uint32_t r = 0; r < randomisations; ++r) sequences_.push_back(core::Sobol::scrambled(seed_ + r));
 }
 
-PairCounts AreaToArea::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
+PairCounts AreaToArea::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                                const Run& run) const {
   PairCounts counts;
   Sampling sampling(*this);
   for (Index i = rows.first; i < rows.first + rows.count; ++i) {
@@ -173,10 +176,12 @@ PairCounts AreaToArea::exchange(const ElementBlock& rows, const ElementBlock& co
 ExchangeEntry AreaToArea::estimate(Index i, Index j, Sampling& sampling, PairCounts& counts) const {
   const bool adaptive = context_.samples == 0;
   const auto asked = (context_.samples + randomisations - 1) / randomisations;
-  const auto last = adaptive ? most_points : static_cast<std::uint32_t>(std::bit_ceil(std::clamp<std::uint64_t>(asked, 1, 1u << 26)));
+  const auto last =
+      adaptive ? most_points : static_cast<std::uint32_t>(std::bit_ceil(std::clamp<std::uint64_t>(asked, 1, 1u << 26)));
   ExchangeEntry entry;
   sampling.begin(i, j);
-  for (std::uint32_t points = adaptive ? fewest_points : std::min(last, most_points);; points += std::min(points, most_points)) {
+  for (std::uint32_t points = adaptive ? fewest_points : std::min(last, most_points);;
+       points += std::min(points, most_points)) {
     sampling.extend(points);
     PairCounts of_entry;
     entry = sampling.entry(of_entry);

@@ -21,7 +21,8 @@ class Blockers {
   /// All that may reach into the shaft.
   std::vector<std::uint32_t> candidates(const geometry::Shaft& shaft) const;
   /// The same, appended; `among`, if there is one, is a list made for a wider shaft.
-  void append_candidates(const geometry::Shaft& shaft, const std::vector<std::uint32_t>* among, std::vector<std::uint32_t>& found) const;
+  void append_candidates(const geometry::Shaft& shaft, const std::vector<std::uint32_t>* among,
+                         std::vector<std::uint32_t>& found) const;
   /// False only if none reaches into the shaft, by the whole tree or by a list made for a wider shaft.
   bool any(const geometry::Shaft& shaft) const;
   bool any(const geometry::Shaft& shaft, const std::vector<std::uint32_t>& among) const;

@@ -24,11 +24,16 @@ std::unique_ptr<FormFactorMethod> make(const FormFactorContext& context) {
   return std::make_unique<Method>(context);
 }
 
-constexpr Entry catalogue[] = {{"analytic", make<Analytic>}, {"hybrid", make<Hybrid>}, {"gauss-lambert", make<GaussLambert>},
-                               {"area-to-area", make<AreaToArea>}, {"hemisphere-rays", make<HemisphereRays>},
+constexpr Entry catalogue[] = {{"analytic", make<Analytic>},
+                               {"hybrid", make<Hybrid>},
+                               {"gauss-lambert", make<GaussLambert>},
+                               {"area-to-area", make<AreaToArea>},
+                               {"hemisphere-rays", make<HemisphereRays>},
                                {"global-lines", make<GlobalLines>},
-                               {"hemicube", make<ExactHemicube>}, {"hemicube-midpoint", make<MidpointHemicube>},
-                               {"hemicube-max", make<MaxHemicube>}, {"single-plane", make<SinglePlane>}};
+                               {"hemicube", make<ExactHemicube>},
+                               {"hemicube-midpoint", make<MidpointHemicube>},
+                               {"hemicube-max", make<MaxHemicube>},
+                               {"single-plane", make<SinglePlane>}};
 
 }  // namespace
 

@@ -24,7 +24,8 @@ std::vector<Elements> by_plane(const Elements& elements, const ElementShapes& sh
   std::vector<Elements> open;
   std::size_t searched = 0;
   for (const Index e : elements) {
-    // Neighbours in the list are mostly neighbours in space: the latest planes are tried, not all of a curved surface's.
+    // Neighbours in the list are mostly neighbours in space: the latest planes are tried, not all of a curved
+    // surface's.
     searched = open.size() > 16 ? open.size() - 16 : 0;
     auto found = std::find_if(open.begin() + static_cast<Index>(searched), open.end(), [&](const Elements& plane) {
       return same_plane(shapes, shapes[plane.front()], shapes[e]);

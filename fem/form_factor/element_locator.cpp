@@ -8,12 +8,15 @@ namespace {
 
 constexpr double relative_thickness = 1e-6;  ///< of an element's extent
 
-std::size_t slot(scene::SurfaceId surface, scene::Side side) { return 2 * std::size_t{surface.value} + (side == scene::Side::back ? 1 : 0); }
+std::size_t slot(scene::SurfaceId surface, scene::Side side) {
+  return 2 * std::size_t{surface.value} + (side == scene::Side::back ? 1 : 0);
+}
 
 }  // namespace
 
 ElementLocator::Outline ElementLocator::outline_of(const scene::SurfacePatch& patch) {
-  Outline o{patch.corner[0], patch.normal(), {}, {}, relative_thickness * geometry::box_of(patch.ring()).diagonal().norm()};
+  Outline o{
+      patch.corner[0], patch.normal(), {}, {}, relative_thickness * geometry::box_of(patch.ring()).diagonal().norm()};
   o.inwards.fill(Vec3::Zero());
   for (std::size_t k = 0; k < patch.corners; ++k) {
     const Vec3 edge = patch.corner[(k + 1) % patch.corners] - patch.corner[k];

@@ -10,9 +10,9 @@
 
 namespace interflect::fem {
 
-/// From what a ray hits to the element there: the answer of `mesh::ElementMesh::locate`, some twenty times sooner, since it asks
-/// only those elements in whose boxes the point lies, and of them only whether they hold it.  Where rounding lets none do so,
-/// `locate` is asked.
+/// From what a ray hits to the element there: the answer of `mesh::ElementMesh::locate`, some twenty times sooner,
+/// since it asks only those elements in whose boxes the point lies, and of them only whether they hold it.  Where
+/// rounding lets none do so, `locate` is asked.
 class ElementLocator {
  public:
   static constexpr Index none = -1;
@@ -35,8 +35,8 @@ class ElementLocator {
 
   mesh::ElementMesh mesh_;
   std::vector<Outline> outlines_;
-  std::vector<geometry::BoxTree> trees_;   ///< of the mesh's parts
-  std::vector<std::int32_t> part_;         ///< by surface and side; -1: it has none
+  std::vector<geometry::BoxTree> trees_;  ///< of the mesh's parts
+  std::vector<std::int32_t> part_;        ///< by surface and side; -1: it has none
 };
 
 }  // namespace interflect::fem

@@ -11,7 +11,8 @@
 
 namespace interflect::fem {
 
-/// What a pair of elements is integrated from, computed once per element; positions relative to `ElementShapes::origin`.
+/// What a pair of elements is integrated from, computed once per element; positions relative to
+/// `ElementShapes::origin`.
 struct ElementShape {
   std::array<Vec3, 4> corner;
   std::size_t corners = 0;
@@ -60,8 +61,8 @@ class ElementShapes {
   const Vec3& origin() const { return origin_; }
   /// Distances from planes below this are rounding, near the elements that the planes are taken from [m].
   double plane_tolerance() const { return plane_tolerance_; }
-  /// Heights over an element's plane below this are rounding, at a point that may be far from it [m]: the plane goes through
-  /// rounded corners, and so it is tilted by their rounding over the element's width, area / radius or more.
+  /// Heights over an element's plane below this are rounding, at a point that may be far from it [m]: the plane goes
+  /// through rounded corners, and so it is tilted by their rounding over the element's width, area / radius or more.
   double height_tolerance(const ElementShape& of, const Vec3& at) const {
     return plane_tolerance_ + corner_rounding_ * (at - of.centroid).norm() * of.radius / of.area;
   }

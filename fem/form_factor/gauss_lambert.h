@@ -5,7 +5,8 @@
 
 namespace interflect::fem {
 
-/// Form factors of pairs whose visibility, where it is in doubt, is sampled by rays; that gives an entry its standard error.
+/// Form factors of pairs whose visibility, where it is in doubt, is sampled by rays; that gives an entry its standard
+/// error.
 class GaussLambert final : public PairMethod {
  public:
   explicit GaussLambert(const FormFactorContext& context);

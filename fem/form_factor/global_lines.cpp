@@ -31,7 +31,8 @@ double since(std::chrono::steady_clock::time_point start) {
 /// N_ij, each pair once: whole numbers, so that the order in which threads add does not show.  2 N² bytes.
 class GlobalLines::Counts {
  public:
-  explicit Counts(Index elements) : elements_(elements), count_(static_cast<std::size_t>(elements * (elements - 1) / 2)) {}
+  explicit Counts(Index elements)
+      : elements_(elements), count_(static_cast<std::size_t>(elements * (elements - 1) / 2)) {}
   void add(const Pair& pair) { count_[at(pair.from, pair.to)].fetch_add(1, std::memory_order_relaxed); }
   std::uint32_t operator()(Index a, Index b) const { return count_[at(a, b)].load(std::memory_order_relaxed); }
 
@@ -59,7 +60,8 @@ GlobalLines::GlobalLines(const FormFactorContext& context)
   const double an_element = std::min(1 / (context.tolerance * context.tolerance), most_lines_an_element);
   const double mean_area = area / static_cast<double>(context.patches.size());
   lines_ = context.samples;
-  if (lines_ == 0 && area > 0) lines_ = static_cast<std::uint64_t>(std::ceil(an_element * 2 * pi * radius_ * radius_ / mean_area));
+  if (lines_ == 0 && area > 0)
+    lines_ = static_cast<std::uint64_t>(std::ceil(an_element * 2 * pi * radius_ * radius_ / mean_area));
 }
 
 raycast::Ray GlobalLines::line(std::uint64_t k) const {
@@ -68,15 +70,19 @@ raycast::Ray GlobalLines::line(std::uint64_t k) const {
   const double z = 1 - 2 * u, across = std::sqrt(std::max(0.0, 1 - z * z)), from_axis = radius_ * std::sqrt(s);
   const Vec3 direction(across * std::cos(2 * pi * v), across * std::sin(2 * pi * v), z);
   const core::Frame frame = core::frame_around(direction);
-  return {centre_ + frame.to_world({from_axis * std::cos(2 * pi * t), from_axis * std::sin(2 * pi * t), -1.5 * radius_}), direction};
+  return {
+      centre_ + frame.to_world({from_axis * std::cos(2 * pi * t), from_axis * std::sin(2 * pi * t), -1.5 * radius_}),
+      direction};
 }
 
-void GlobalLines::pairs_along(const raycast::Ray& line, std::vector<scene::SurfacePoint>& hits, std::vector<Pair>& pairs) const {
+void GlobalLines::pairs_along(const raycast::Ray& line, std::vector<scene::SurfacePoint>& hits,
+                              std::vector<Pair>& pairs) const {
   pairs.clear();
   context_.rays.all(line, hits);
   for (std::size_t k = 1; k < hits.size(); ++k) {
     const scene::SurfacePoint& to = hits[k];
-    // Surfaces that lie on each other do not exchange light through the nothing between them; nor do rays see each other there.
+    // Surfaces that lie on each other do not exchange light through the nothing between them; nor do rays see each
+    // other there.
     if ((to.position - hits[k - 1].position).norm() <= 2 * context_.rays.offset()) continue;
     scene::SurfacePoint from = hits[k - 1];
     from.side = other(from.side);
@@ -110,7 +116,8 @@ PairCounts GlobalLines::add_row(Index a, const Counts& found, ExchangeSink& sink
   return counts;
 }
 
-PairCounts GlobalLines::exchange(const ElementBlock& rows, const ElementBlock&, ExchangeSink& sink, const Run& run) const {
+PairCounts GlobalLines::exchange(const ElementBlock& rows, const ElementBlock&, ExchangeSink& sink,
+                                 const Run& run) const {
   const Index n = rows.count, blocks = static_cast<Index>((lines_ + lines_a_block - 1) / lines_a_block);
   if (n < 2) return {};
   Counts found(n);
@@ -118,7 +125,8 @@ PairCounts GlobalLines::exchange(const ElementBlock& rows, const ElementBlock&, 
     core::Progress::Stage stage(run.progress, "lines", lines_);
     run.threads.for_blocks(blocks, 1, [&](Index block, Index) {
       run.throw_if_stopped("form factors");
-      const auto begin = static_cast<std::uint64_t>(block * lines_a_block), end = std::min(lines_, begin + lines_a_block);
+      const auto begin = static_cast<std::uint64_t>(block * lines_a_block),
+                 end = std::min(lines_, begin + lines_a_block);
       shoot(begin, end, found);
       stage.advance(end - begin);
     });

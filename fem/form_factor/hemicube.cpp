@@ -13,7 +13,8 @@ ExactHemicube::ExactHemicube(const FormFactorContext& context)
     : Hemicube(context, "hemicube", HemicubeGrid::uniform(even_resolution(context.resolution))) {}
 
 MidpointHemicube::MidpointHemicube(const FormFactorContext& context)
-    : Hemicube(context, "hemicube-midpoint", HemicubeGrid::uniform(even_resolution(context.resolution), CellWeights::midpoint)) {}
+    : Hemicube(context, "hemicube-midpoint",
+               HemicubeGrid::uniform(even_resolution(context.resolution), CellWeights::midpoint)) {}
 
 MaxHemicube::MaxHemicube(const FormFactorContext& context)
     : Hemicube(context, "hemicube-max", max_cells(even_resolution(context.resolution))) {}

@@ -7,13 +7,13 @@
 
 namespace interflect::fem {
 
-/// Form factors by a Z-buffer on half a cube about each element's centroid [Cohen, Greenberg 1985] "The hemi-cube: a radiosity solution for
-/// complex environments", SIGGRAPH 85.  What differs here: cells by exact integrals, so that a closed row sums to 1; a random azimuth; and
-/// an error with each entry (row_method.h).
+/// Form factors by a Z-buffer on half a cube about each element's centroid [Cohen, Greenberg 1985] "The hemi-cube: a
+/// radiosity solution for complex environments", SIGGRAPH 85.  What differs here: cells by exact integrals, so that a
+/// closed row sums to 1; a random azimuth; and an error with each entry (row_method.h).
 ///
-/// Its three assumptions [Baum, Rushmeier, Winget 1989] stay: that the distance is large against the element (one at the centre of a unit
-/// square converges to 0.1901 for the perpendicular square at its edge, whose form factor is 0.2000), that visibility is the same all
-/// over the element, and that items are larger than cells.
+/// Its three assumptions [Baum, Rushmeier, Winget 1989] stay: that the distance is large against the element (one at
+/// the centre of a unit square converges to 0.1901 for the perpendicular square at its edge, whose form factor is
+/// 0.2000), that visibility is the same all over the element, and that items are larger than cells.
 class Hemicube : public RowMethod {
  public:
   std::string name() const override { return name_; }

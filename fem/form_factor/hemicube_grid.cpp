@@ -23,7 +23,8 @@ FaceGrid with_exact_weights(CellAxis x, CellAxis y, Corner from_corner) {
   std::vector<double> below = row(grid.y.boundaries().front());
   for (std::size_t j = 1; j < grid.y.boundaries().size(); ++j) {
     std::vector<double> above = row(grid.y.boundaries()[j]);
-    for (std::size_t i = 1; i < above.size(); ++i) grid.weight.push_back((above[i] - above[i - 1]) - (below[i] - below[i - 1]));
+    for (std::size_t i = 1; i < above.size(); ++i)
+      grid.weight.push_back((above[i] - above[i - 1]) - (below[i] - below[i - 1]));
     below = std::move(above);
   }
   return grid;
@@ -33,7 +34,8 @@ FaceGrid with_midpoint_weights(CellAxis x, CellAxis y, Corner density) {
   FaceGrid grid{std::move(x), std::move(y), {}};
   for (std::size_t j = 0; j < grid.y.samples().size(); ++j)
     for (std::size_t i = 0; i < grid.x.samples().size(); ++i) {
-      const double dx = grid.x.boundaries()[i + 1] - grid.x.boundaries()[i], dy = grid.y.boundaries()[j + 1] - grid.y.boundaries()[j];
+      const double dx = grid.x.boundaries()[i + 1] - grid.x.boundaries()[i],
+                   dy = grid.y.boundaries()[j + 1] - grid.y.boundaries()[j];
       grid.weight.push_back(density(grid.x.samples()[i], grid.y.samples()[j]) * dx * dy);
     }
   return grid;
@@ -64,7 +66,8 @@ CellAxis equal_parts(int cells, double low, double high, const std::function<dou
 }
 
 void require_even(int resolution) {
-  if (resolution < 2 || resolution % 2 != 0) throw core::PreconditionError("HemicubeGrid: an even resolution of at least 2 expected");
+  if (resolution < 2 || resolution % 2 != 0)
+    throw core::PreconditionError("HemicubeGrid: an even resolution of at least 2 expected");
 }
 
 }  // namespace

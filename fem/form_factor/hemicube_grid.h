@@ -45,7 +45,8 @@ struct FaceGrid {
   double sum() const;
 };
 
-/// F from a point to [0, x] x [0, y] of the plane at distance 1 before it, across its normal (Lambert's formula for a corner):
+/// F from a point to [0, x] x [0, y] of the plane at distance 1 before it, across its normal (Lambert's formula for a
+/// corner):
 ///
 ///   F = 1/(2 pi) [ x/sqrt(1+x²) atan(y/sqrt(1+x²)) + y/sqrt(1+y²) atan(x/sqrt(1+y²)) ]
 ///
@@ -59,10 +60,11 @@ double factor_across(double x, double y);
 /// @return in (-1/4, 1/4), odd in y; pi is inside.
 double factor_beside(double y, double z);
 
-/// The cells of a hemicube: a top, |x|, |y| <= 1 / height at distance 1, and four sides alike, |x| <= 1, 0 <= y <= height.
+/// The cells of a hemicube: a top, |x|, |y| <= 1 / height at distance 1, and four sides alike, |x| <= 1, 0 <= y <=
+/// height.
 ///
-/// Weights are exact integrals (differences of `factor_across` and `factor_beside` at the corners), which sum to 1 but for rounding; or,
-/// as [Cohen, Greenberg 1985] have them, dF at the sample times the cell's area:
+/// Weights are exact integrals (differences of `factor_across` and `factor_beside` at the corners), which sum to 1 but
+/// for rounding; or, as [Cohen, Greenberg 1985] have them, dF at the sample times the cell's area:
 ///
 ///   top dx dy / (pi (x²+y²+1)²),   side z dy dz / (pi (y²+z²+1)²)
 struct HemicubeGrid {

@@ -5,9 +5,10 @@
 namespace interflect::fem {
 
 HemicubeSight::HemicubeSight(const HemicubeGrid& grid)
-    : planes_{ViewPlane::top(1 / grid.height), ViewPlane::side(0, grid.height), ViewPlane::side(1, grid.height), ViewPlane::side(2, grid.height),
-              ViewPlane::side(3, grid.height)},
-      buffers_{ItemBuffer(grid.top), ItemBuffer(grid.side), ItemBuffer(grid.side), ItemBuffer(grid.side), ItemBuffer(grid.side)} {}
+    : planes_{ViewPlane::top(1 / grid.height), ViewPlane::side(0, grid.height), ViewPlane::side(1, grid.height),
+              ViewPlane::side(2, grid.height), ViewPlane::side(3, grid.height)},
+      buffers_{ItemBuffer(grid.top), ItemBuffer(grid.side), ItemBuffer(grid.side), ItemBuffer(grid.side),
+               ItemBuffer(grid.side)} {}
 
 void HemicubeSight::clear() {
   for (ItemBuffer& buffer : buffers_) buffer.clear();
@@ -48,7 +49,8 @@ void HemicubeSight::look(const ViewScene& scene, const Eye& eye, Index element, 
     if (shape == element || !scene.fronting(eye, element, shape, polygon)) continue;
     const bool counts = scene.is_element(shape);
     if (!counts) polygon.plane.offset *= 1 + 1e-9;  // a facet that elements cover in part stays behind them
-    const double covered = add(polygon.ring(), polygon.plane, counts ? static_cast<std::int32_t>(shape) : ItemBuffer::nothing_of_interest);
+    const double covered =
+        add(polygon.ring(), polygon.plane, counts ? static_cast<std::int32_t>(shape) : ItemBuffer::nothing_of_interest);
     if (!counts) continue;
     seen.covered[static_cast<std::size_t>(shape)] = covered;
     if (covered == 0) uncovered_.push_back(shape);

@@ -35,8 +35,10 @@ class HemisphereRays::Row {
       core::RandomNumbers random(m_.seed_, static_cast<std::uint32_t>(a_), rays_);
       const double u = random.next(), v = random.next();
       const auto word = m_.sequence_.point<2>(static_cast<std::uint32_t>(rays_));
-      const Vec3 x = m_.maps_[static_cast<std::size_t>(a_)](core::inside_unit(word[0] ^ shift_[0]), core::inside_unit(word[1] ^ shift_[1]));
-      count(m_.context_.rays.closest({x + m_.shapes_.origin(), frame_.to_world(core::cosine_hemisphere(u, v)), frame_.n}));
+      const Vec3 x = m_.maps_[static_cast<std::size_t>(a_)](core::inside_unit(word[0] ^ shift_[0]),
+                                                            core::inside_unit(word[1] ^ shift_[1]));
+      count(m_.context_.rays.closest(
+          {x + m_.shapes_.origin(), frame_.to_world(core::cosine_hemisphere(u, v)), frame_.n}));
     }
   }
 
@@ -79,15 +81,18 @@ HemisphereRays::HemisphereRays(const FormFactorContext& context)
   for (Index i = 0; i < static_cast<Index>(context.patches.size()); ++i) maps_.emplace_back(shapes_[i].ring());
 }
 
-PairCounts HemisphereRays::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
+PairCounts HemisphereRays::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                                    const Run& run) const {
   PairCounts counts;
   Row row(*this);
   for (Index a = rows.first; a < rows.first + rows.count; ++a) {
     row.begin(a);
     do {
       run.throw_if_stopped("form factors");
-      row.extend(context_.samples == 0 ? row.rays() + batch : std::min(context_.samples, row.rays() + (std::uint64_t{1} << 20)));
-    } while (context_.samples == 0 ? row.error() > context_.tolerance && row.rays() < most_rays : row.rays() < context_.samples);
+      row.extend(context_.samples == 0 ? row.rays() + batch
+                                       : std::min(context_.samples, row.rays() + (std::uint64_t{1} << 20)));
+    } while (context_.samples == 0 ? row.error() > context_.tolerance && row.rays() < most_rays
+                                   : row.rays() < context_.samples);
     counts.rays += row.rays();
     const double area = shapes_[a].area;
     sink.weigh_row(a, static_cast<double>(row.rays()) / area);

@@ -13,8 +13,8 @@ namespace interflect::fem {
 
 namespace {
 
-constexpr int side = 4;     // of the grid of rays to j, from each point
-constexpr int deepest = 3;  // times that i is cut in four
+constexpr int side = 4;       // of the grid of rays to j, from each point
+constexpr int deepest = 3;    // times that i is cut in four
 constexpr double near = 0.5;  ///< radius over distance from which on it is
 
 }  // namespace
@@ -58,13 +58,15 @@ class Hybrid::Points final : public PairOcclusion {
     for (const CellPart& part : four_parts(ring)) add_nodes(part.ring(), inner, depth + 1);
   }
   /// The rays of a point share what Lambert's formula gives it, in proportion to their kernels.
-  void add_rays(const SurfaceNode& node, const ElementShape& outer, const ElementShape& inner, core::RandomNumbers& random) {
+  void add_rays(const SurfaceNode& node, const ElementShape& outer, const ElementShape& inner,
+                core::RandomNumbers& random) {
     const double factor = node.weight * point_to_polygon_above_horizon(node.position, outer.plane.normal, inner.ring());
     const std::size_t first = weights_.size();
     const Vec3& origin = method_.shapes().origin();
     double sum = 0;
     for (int k = 0; k < side * side; ++k) {
-      double u = (k % side + random.next()) / side, v = (k / side + random.next()) / side;  // NOLINT(bugprone-integer-division)
+      double u = (k % side + random.next()) / side,
+             v = (k / side + random.next()) / side;  // NOLINT(bugprone-integer-division)
       if (inner.corners == 3 && u + v > 1) u = 1 - u, v = 1 - v;
       const Vec3 y = point_on(inner.ring(), u, v), d = y - node.position;
       const double cosines = outer.plane.normal.dot(d) * -inner.plane.normal.dot(d), square = d.squaredNorm();

@@ -27,7 +27,8 @@ void ItemBuffer::widen_spans(double x_from, double y_from, double x_to, double y
   const double slope = y_to > y_from ? (x_to - x_from) / (y_to - y_from) : 0;
   const auto [low, high] = std::minmax(x_from, x_to);
   const std::vector<double>& rows = grid_.y.samples();
-  for (auto j = static_cast<std::size_t>(grid_.y.first_from(y_from - rounding_)); j < rows.size() && rows[j] <= y_to + rounding_; ++j) {
+  for (auto j = static_cast<std::size_t>(grid_.y.first_from(y_from - rounding_));
+       j < rows.size() && rows[j] <= y_to + rounding_; ++j) {
     const bool flat = y_to - y_from < rounding_;
     const double x = std::clamp(x_from + slope * (rows[j] - y_from), low, high);
     left_[j] = std::min(left_[j], flat ? low : x);
@@ -78,7 +79,8 @@ double ItemBuffer::add(const ProjectedPolygon& polygon, std::int32_t item) {
 /// Between the cells of row j and those to their right and above, where the items differ.
 void ItemBuffer::count_borders(int j, SeenItems& seen) const {
   const int columns = grid_.x.cells();
-  const std::int32_t *const here = item_.data() + at(0, j), *const above = j + 1 < grid_.y.cells() ? here + columns : here;
+  const std::int32_t *const here = item_.data() + at(0, j), *const above =
+                                                                j + 1 < grid_.y.cells() ? here + columns : here;
   const double *const w = grid_.weight.data() + at(0, j), *const w_above = w + (above - here);
   const auto add = [&seen](std::int32_t item, double square) {
     if (item >= 0) seen.border[static_cast<std::size_t>(item)] += square;

@@ -12,8 +12,8 @@ namespace interflect::fem {
 
 /// A Z-buffer over the cells of one face: which item each cell's sample sees.
 ///
-/// A polygon has the samples in it and on its edges (within 1e-12 of the face's width), so that no sample falls between neighbours, with or without
-/// common corners; of two at one depth the first stays.
+/// A polygon has the samples in it and on its edges (within 1e-12 of the face's width), so that no sample falls between
+/// neighbours, with or without common corners; of two at one depth the first stays.
 class ItemBuffer {
  public:
   static constexpr std::int32_t sky = -1, nothing_of_interest = -2;  ///< items that are not counted
@@ -38,8 +38,8 @@ class ItemBuffer {
   void count_borders(int j, SeenItems& seen) const;
 
   const FaceGrid& grid_;
-  double rounding_;                   ///< of projected coordinates
-  std::vector<double> until_;         ///< sums of weights along a row, from its beginning
+  double rounding_;            ///< of projected coordinates
+  std::vector<double> until_;  ///< sums of weights along a row, from its beginning
   std::vector<double> nearness_;
   std::vector<std::int32_t> item_;
   std::vector<double> left_, right_;  ///< of the polygon at hand, per row

@@ -19,13 +19,13 @@ double angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm()
 
 double edge_error(const FaceGrid& grid, bool side) {
   const auto direction = [side](double x, double y) { return side ? Vec3(x, 1, y) : Vec3(x, y, 1); };
-  const std::vector<double> &x = grid.x.boundaries(), &y = grid.y.boundaries();
+  const std::vector<double>&x = grid.x.boundaries(), &y = grid.y.boundaries();
   double sum = 0;
   for (std::size_t j = 0; j + 1 < y.size(); ++j)
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
       const double f = grid.weight_at(static_cast<int>(i), static_cast<int>(j));
-      const double diagonals =
-          angle(direction(x[i], y[j]), direction(x[i + 1], y[j + 1])) + angle(direction(x[i + 1], y[j]), direction(x[i], y[j + 1]));
+      const double diagonals = angle(direction(x[i], y[j]), direction(x[i + 1], y[j + 1])) +
+                               angle(direction(x[i + 1], y[j]), direction(x[i], y[j + 1]));
       sum += 0.5 * f * f * diagonals;
     }
   return sum;
@@ -34,10 +34,12 @@ double edge_error(const FaceGrid& grid, bool side) {
 }  // namespace
 
 HemicubeGrid max_cells(int resolution) {
-  if (resolution < 2 || resolution % 2 != 0) throw core::PreconditionError("max_cells: an even resolution of at least 2 expected");
+  if (resolution < 2 || resolution % 2 != 0)
+    throw core::PreconditionError("max_cells: an even resolution of at least 2 expected");
   const CellAxis top = CellAxis::warped(resolution, [](double t) { return bent(2 * t - 1, top_bend) / height; });
   const CellAxis across = CellAxis::warped(resolution, [](double t) { return bent(2 * t - 1, across_bend); });
-  const CellAxis up = CellAxis::warped(resolution / 2, [](double t) { return height * bent(std::pow(t, up_power), up_bend); });
+  const CellAxis up =
+      CellAxis::warped(resolution / 2, [](double t) { return height * bent(std::pow(t, up_power), up_bend); });
   return HemicubeGrid::of(height, top, top, across, up);
 }
 

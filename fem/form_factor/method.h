@@ -29,7 +29,8 @@ class ExchangeSink {
  public:
   virtual ~ExchangeSink() = default;
   virtual void add(Index a, Index b, const ExchangeEntry& entry) = 0;
-  /// Said once by a row method that samples: what a view from a is worth beside the other one of a pair, chosen without a look at K.
+  /// Said once by a row method that samples: what a view from a is worth beside the other one of a pair, chosen without
+  /// a look at K.
   virtual void weigh_row(Index, double) {}
 };
 
@@ -41,7 +42,7 @@ struct PairCounts {
   std::uint64_t rays = 0;
   std::uint64_t subtracted = 0;  ///< what hides a part was taken out exactly
   std::uint64_t points = 0;      ///< at which that was done
-  std::uint64_t clamped = 0;  ///< entries pulled back into 0 <= K <= min(A_a, A_b)
+  std::uint64_t clamped = 0;     ///< entries pulled back into 0 <= K <= min(A_a, A_b)
   double lost = 0;  ///< largest part of a row that its method cannot see and does not make up for, in [0, 1)
   PairCounts& operator+=(const PairCounts& o);
 };
@@ -59,8 +60,8 @@ class FormFactorMethod {
   virtual std::string name() const = 0;
   virtual Granularity granularity() const = 0;
   virtual int highest_order() const { return 0; }  ///< of the basis: 0 for constants only
-  /// Adds entries to the sink, as the granularity says; entries that are not added are 0, exactly.  Reentrant, but for `all`, which uses the
-  /// run's threads itself.  Same numbers whatever the blocks and the threads.
+  /// Adds entries to the sink, as the granularity says; entries that are not added are 0, exactly.  Reentrant, but for
+  /// `all`, which uses the run's threads itself.  Same numbers whatever the blocks and the threads.
   virtual PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
                               const Run& run) const = 0;
   /// Seconds on one thread for everything, by a short trial: only of a method that cannot be asked for a part.
@@ -76,7 +77,8 @@ struct FormFactorContext {
   double tolerance = 1e-3;   ///< relative, of the quadrature of one entry
   int visibility_rays = 16;  ///< per pair that is neither clear nor dark; at least 4
   int resolution = 256;      ///< cells across the top of a hemicube, or across a plane
-  std::uint64_t samples = 0; ///< of a Monte Carlo method: a pair, a row, or in all; 0: as many as the tolerance asks for
+  std::uint64_t samples =
+      0;  ///< of a Monte Carlo method: a pair, a row, or in all; 0: as many as the tolerance asks for
 };
 
 /// @throws core::InputError with the names known

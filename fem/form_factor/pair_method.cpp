@@ -7,7 +7,8 @@ namespace interflect::fem {
 /// All pairs of two clusters: what may lie between the clusters is found once, when first asked for.
 class PairMethod::ClusterPair {
  public:
-  ClusterPair(const PairMethod& method, const ElementCluster& a, const ElementCluster& b) : method_(method), a_(a), b_(b) {}
+  ClusterPair(const PairMethod& method, const ElementCluster& a, const ElementCluster& b)
+      : method_(method), a_(a), b_(b) {}
 
   void exchange(Index i, Index j, ExchangeSink& sink, PairOcclusion& occlusion, PairCounts& counts) {
     const PairIntegral unoccluded = method_.integrate_(i, j);
@@ -41,7 +42,8 @@ class PairMethod::ClusterPair {
     candidates_.emplace();
     planar_ = a_.rectangle && b_.rectangle;
     if (!planar_) return;
-    *candidates_ = method_.blockers_.candidates(geometry::Shaft(*a_.rectangle, *b_.rectangle, method_.shapes().plane_tolerance()));
+    *candidates_ =
+        method_.blockers_.candidates(geometry::Shaft(*a_.rectangle, *b_.rectangle, method_.shapes().plane_tolerance()));
     if (candidates_->size() > longest_list) planar_ = false;
   }
 
@@ -57,7 +59,8 @@ PairMethod::PairMethod(const FormFactorContext& context)
       clusters_(clusters_of(context.patches, integrate_.shapes())),
       blockers_(context.scene, integrate_.shapes().origin(), integrate_.shapes().plane_tolerance()) {}
 
-PairCounts PairMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
+PairCounts PairMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                                const Run& run) const {
   PairCounts counts;
   const std::unique_ptr<PairOcclusion> work = occlusion();
   const auto within = [](const ElementBlock& block, const ElementCluster& cluster) {

@@ -28,12 +28,13 @@ class PairOcclusion {
 
 /// Methods that go from pair to pair, K_ij = K_ij,unoccluded V_ij.
 ///
-/// Orientation proves pairs dark; a shaft between two clusters of elements, or between the two elements, that nothing reaches into
-/// proves them clear.  What is left is the method's own.
+/// Orientation proves pairs dark; a shaft between two clusters of elements, or between the two elements, that nothing
+/// reaches into proves them clear.  What is left is the method's own.
 class PairMethod : public FormFactorMethod {
  public:
   Granularity granularity() const final { return Granularity::pair; }
-  PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const final;
+  PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                      const Run& run) const final;
 
  protected:
   explicit PairMethod(const FormFactorContext& context);

@@ -7,7 +7,8 @@ namespace interflect::fem {
 using geometry::ConvexBlocker;
 using geometry::HalfSpace;
 
-bool PairShadow::prepare(const ConvexBlocker& blocker, std::span<const Vec3> outer, std::span<const Vec3> inner, double rounding) {
+bool PairShadow::prepare(const ConvexBlocker& blocker, std::span<const Vec3> outer, std::span<const Vec3> inner,
+                         double rounding) {
   blocker_ = &blocker;
   rounding_ = rounding;
   edges_.clear();
@@ -27,12 +28,14 @@ void PairShadow::find_sights(std::span<const Vec3> outer) {
   }
 }
 
-/// What lies before a fronting face is not hidden: those that have all of the inner polygon behind them matter to no eye.
+/// What lies before a fronting face is not hidden: those that have all of the inner polygon behind them matter to no
+/// eye.
 bool PairShadow::keep_faces(std::span<const Vec3> inner) {
   for (std::uint32_t f = 0; f < sight_.size(); ++f) {
     if (sight_[f] == Sight::from_none) continue;
     const geometry::Plane& plane = blocker_->planes()[f];
-    const auto behind = std::count_if(inner.begin(), inner.end(), [&](const Vec3& y) { return plane.distance(y) <= 0; });
+    const auto behind =
+        std::count_if(inner.begin(), inner.end(), [&](const Vec3& y) { return plane.distance(y) <= 0; });
     if (behind == static_cast<std::ptrdiff_t>(inner.size())) continue;
     if (behind == 0 && sight_[f] == Sight::from_all) return false;
     faces_.push_back({plane, sight_[f] == Sight::from_all});
@@ -63,7 +66,8 @@ bool PairShadow::keep_edges(std::span<const Vec3> outer, std::span<const Vec3> i
 }
 
 /// Of the inner polygon to the planes through eyes and an edge, whose face with the edge on its left fronts the eyes.
-PairShadow::Where PairShadow::where(const Vec3& from, const Vec3& to, std::span<const Vec3> outer, std::span<const Vec3> inner) const {
+PairShadow::Where PairShadow::where(const Vec3& from, const Vec3& to, std::span<const Vec3> outer,
+                                    std::span<const Vec3> inner) const {
   bool inside = true, outside = true;
   for (const Vec3& eye : outer) {
     const Vec3 inwards = (to - eye).cross(from - eye);

@@ -8,13 +8,13 @@
 
 namespace interflect::fem {
 
-/// A convex blocker as a pair of convex polygons sees it: of its edges and faces only those that can cut a shadow's border through the
-/// inner one, for an eye anywhere in the outer one.
+/// A convex blocker as a pair of convex polygons sees it: of its edges and faces only those that can cut a shadow's
+/// border through the inner one, for an eye anywhere in the outer one.
 ///
-/// On which side of the plane through an eye x and an edge (a, b) a point y lies is the sign of det(a - x, b - x, y - x), which is linear in x
-/// and in y: what it is from all corners to all corners it is throughout.  So an edge whose plane has all of the inner polygon inside
-/// never cuts, and one of the outline that has all of it outside proves that the blocker hides nothing.  A solid of hundreds of faces is
-/// left with a few.
+/// On which side of the plane through an eye x and an edge (a, b) a point y lies is the sign of det(a - x, b - x, y -
+/// x), which is linear in x and in y: what it is from all corners to all corners it is throughout.  So an edge whose
+/// plane has all of the inner polygon inside never cuts, and one of the outline that has all of it outside proves that
+/// the blocker hides nothing.  A solid of hundreds of faces is left with a few.
 class PairShadow {
  public:
   /// An edge that may be in the outline.
@@ -32,16 +32,19 @@ class PairShadow {
   /// @param outer, inner  convex rings [m]
   /// @param rounding      of coordinates [m]
   /// @return  false where the blocker is proved to hide nothing
-  bool prepare(const geometry::ConvexBlocker& blocker, std::span<const Vec3> outer, std::span<const Vec3> inner, double rounding);
+  bool prepare(const geometry::ConvexBlocker& blocker, std::span<const Vec3> outer, std::span<const Vec3> inner,
+               double rounding);
 
   const geometry::ConvexBlocker& blocker() const { return *blocker_; }
   std::span<const Edge> edges() const { return edges_; }
   /// Faces that some eyes are before and some behind, with an edge among `edges`.
   std::span<const geometry::Plane> turning() const { return turning_; }
-  /// Whether an eye may lie in the blocker or on it: then `append` is of no use, and the blocker as a whole is to be asked.
+  /// Whether an eye may lie in the blocker or on it: then `append` is of no use, and the blocker as a whole is to be
+  /// asked.
   bool touches_eyes() const { return touches_; }
 
-  /// Appends half-spaces whose intersection, within the inner polygon, is hidden from an eye of the outer one; none: all of it is.
+  /// Appends half-spaces whose intersection, within the inner polygon, is hidden from an eye of the outer one; none:
+  /// all of it is.
   void append(const Vec3& eye, std::vector<geometry::HalfSpace>& shadow) const;
 
  private:

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t most_corners = 8;
 
-/// One edge's term, times 2 pi: n . (r x e) theta / |r x e|.  On the edge itself the term has no direction and is left out.
+/// One edge's term, times 2 pi: n . (r x e) theta / |r x e|.  On the edge itself the term has no direction and is left
+/// out.
 double edge_term(const Vec3& n, const Vec3& from, const Vec3& to, const Vec3& edge) {
   const Vec3 normal = from.cross(edge);
   const double cross = normal.norm();

@@ -11,8 +11,8 @@ namespace interflect::fem {
 ///   F_{dA->P} = |1/(2 pi) sum_k theta_k  n . (r_k x e_k) / |r_k x e_k||,   r_k = p_k - x,  e_k = p_{k+1} - p_k,
 ///   theta_k = atan2(|r_k x e_k|, r_k . r_{k+1})
 ///
-/// Identities: additive over a partition of P; 0 behind the horizon of (x, n), to which P is clipped first.  pi is inside:
-/// irradiance from P is F times its radiosity B.  Which side of P is seen is the caller's question.
+/// Identities: additive over a partition of P; 0 behind the horizon of (x, n), to which P is clipped first.  pi is
+/// inside: irradiance from P is F times its radiosity B.  Which side of P is seen is the caller's question.
 /// @param x, n     receiving point [m] and unit normal
 /// @param polygon  corners [m], planar and convex, either orientation, 3 .. 8 of them
 /// @return         in [0, 1], dimensionless; 0 where x lies in the polygon's plane
@@ -22,7 +22,8 @@ namespace interflect::fem {
 /// Source: [Lambert 1760], for form factors by [Baum 1989] equation (6).  Test: tests/fem/point_to_polygon.cpp
 double point_to_polygon(const Vec3& x, const Vec3& n, std::span<const Vec3> polygon);
 
-/// The same where the caller knows that no corner lies behind the horizon of (x, n): no clipping, any number of corners.
+/// The same where the caller knows that no corner lies behind the horizon of (x, n): no clipping, any number of
+/// corners.
 double point_to_polygon_above_horizon(const Vec3& x, const Vec3& n, std::span<const Vec3> polygon);
 
 /// The same from far away, for the side that `polygon_normal` [unit] points to: one node at the centroid,

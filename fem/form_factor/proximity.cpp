@@ -12,7 +12,8 @@ namespace interflect::fem {
 namespace {
 
 constexpr auto most_views = ProximityError::most_views;
-constexpr double far = 10;  ///< radii of the seen element, beyond which one node is good enough for an estimate of an error
+constexpr double far =
+    10;  ///< radii of the seen element, beyond which one node is good enough for an estimate of an error
 constexpr int least_resolution = 16;
 // From calibration in random scenes: tests/fem/hemicube.cpp.
 constexpr double of_curvature = 1.5, of_range = 0.3, of_unseen = 0.075;
@@ -39,7 +40,8 @@ double factor(const Vec3& x, const Vec3& n, const ElementShape& seen) {
   return point_to_polygon(x, n, seen.ring());
 }
 
-/// For what no view sees: the highest factor from any point, where it is large against the distance; else what parallax leaves of it.
+/// For what no view sees: the highest factor from any point, where it is large against the distance; else what parallax
+/// leaves of it.
 double unseen_factor(const ElementShape& from, const Views& views, const Vec3& n, const ElementShape& seen) {
   double highest = 0;
   for (const Vec3& x : from.ring()) highest = std::max(highest, factor(x, n, seen));

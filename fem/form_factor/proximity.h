@@ -4,16 +4,18 @@
 
 namespace interflect::fem {
 
-/// What it may cost that an element's form factors are those of its centre, and not the mean over its points: an estimate.
+/// What it may cost that an element's form factors are those of its centre, and not the mean over its points: an
+/// estimate.
 ///
-/// With F_k from the centre (k = 0) and from the 4 or 6 nodes of a Gauss rule to a whole element (Lambert), and V_k the part of it
-/// that a coarse hemicube sees from there, g_k = F_k V_k,
+/// With F_k from the centre (k = 0) and from the 4 or 6 nodes of a Gauss rule to a whole element (Lambert), and V_k the
+/// part of it that a coarse hemicube sees from there, g_k = F_k V_k,
 ///
 ///   error = 1.5 | mean_{k>0} g_k - g_0 | + 0.3 (max g - min g)² / max g
 ///
-/// The first term is what the centre errs by as far as the nodes can tell, of the order of (size / distance)²; so is the second, which
-/// does not vanish where the first does by chance, and which grows to 0.3 max g where a shadow's edge passes between the views.  What no view
-/// sees may be seen from elsewhere: 0.075 max F, less where the element is small against the distance.
+/// The first term is what the centre errs by as far as the nodes can tell, of the order of (size / distance)²; so is
+/// the second, which does not vanish where the first does by chance, and which grows to 0.3 max g where a shadow's edge
+/// passes between the views.  What no view sees may be seen from elsewhere: 0.075 max F, less where the element is
+/// small against the distance.
 ///
 /// Where the centre sees everything that is there, as in a convex room, V is 1 and no more hemicubes are made.
 class ProximityError {

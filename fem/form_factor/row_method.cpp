@@ -48,7 +48,8 @@ ExchangeEntry RowMethod::entry(Index a, Index b, const Memory& memory, PairCount
   return {std::min(K, most), 0, std::min(bound, most)};
 }
 
-PairCounts RowMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink, const Run& run) const {
+PairCounts RowMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                               const Run& run) const {
   PairCounts counts;
   Memory memory(*this);
   for (Index a = rows.first; a < rows.first + rows.count; ++a) {

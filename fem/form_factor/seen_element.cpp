@@ -41,7 +41,8 @@ Vec3 SeenTriangle::direction(double u, double v) const {
   return on_arc(b_, c, 1 - v * (1 - c.dot(b_)));
 }
 
-SeenElement::SeenElement(const Vec3& eye, std::span<const Vec3> ring) : part_{SeenTriangle(eye, ring[0], ring[1], ring[2]), {}} {
+SeenElement::SeenElement(const Vec3& eye, std::span<const Vec3> ring)
+    : part_{SeenTriangle(eye, ring[0], ring[1], ring[2]), {}} {
   if (ring.size() == 4) part_[1] = SeenTriangle(eye, ring[0], ring[2], ring[3]);
 }
 

@@ -15,7 +15,8 @@ class SeenTriangle {
   /// @param a, b, c  corners [m], counter-clockwise as seen from the side that is looked for
   SeenTriangle(const Vec3& eye, const Vec3& a, const Vec3& b, const Vec3& c);
 
-  /// [sr]; 0 from behind, and where rounding leaves nothing of it (below 1e-12).  Source: [van Oosterom, Strackee 1983].
+  /// [sr]; 0 from behind, and where rounding leaves nothing of it (below 1e-12).  Source: [van Oosterom, Strackee
+  /// 1983].
   double solid_angle() const { return solid_angle_; }
   /// A direction uniform in solid angle, area onto area from (u, v) in [0, 1]²: only where the solid angle is not 0.
   /// Source: [Arvo 1995] "Stratified sampling of spherical triangles", SIGGRAPH 95, section 3.

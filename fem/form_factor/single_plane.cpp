@@ -13,11 +13,13 @@ namespace {
 /// Form factor of the part of a polygon that the plane does not show, if nothing hid it.
 double factor_beyond(const FrontingPolygon& polygon, const ProjectedPolygon& shown, double half_side) {
   bool inside = true;
-  for (const Vec3& corner : polygon.ring()) inside &= std::max(std::abs(corner.x()), std::abs(corner.y())) <= half_side * corner.z();
+  for (const Vec3& corner : polygon.ring())
+    inside &= std::max(std::abs(corner.x()), std::abs(corner.y())) <= half_side * corner.z();
   if (inside) return 0;
   std::array<Vec3, ProjectedPolygon::capacity> ring;
   for (std::size_t k = 0; k < static_cast<std::size_t>(shown.corners); ++k) ring[k] = Vec3(shown.x[k], shown.y[k], 1);
-  const double part = point_to_polygon_above_horizon(Vec3::Zero(), Vec3::UnitZ(), {ring.data(), static_cast<std::size_t>(shown.corners)});
+  const double part = point_to_polygon_above_horizon(Vec3::Zero(), Vec3::UnitZ(),
+                                                     {ring.data(), static_cast<std::size_t>(shown.corners)});
   return std::max(0.0, point_to_polygon(Vec3::Zero(), Vec3::UnitZ(), polygon.ring()) - part);
 }
 
@@ -25,7 +27,8 @@ double factor_beyond(const FrontingPolygon& polygon, const ProjectedPolygon& sho
 
 class SinglePlane::View final : public Sight {
  public:
-  View(double half_side, double small) : half_side_(half_side), plane_(ViewPlane::top(half_side)), cells_(half_side, small) {}
+  View(double half_side, double small)
+      : half_side_(half_side), plane_(ViewPlane::top(half_side)), cells_(half_side, small) {}
 
   void look(const ViewScene& scene, const Eye& eye, Index element, SeenItems& seen) override {
     cells_.clear();

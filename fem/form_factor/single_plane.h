@@ -4,17 +4,19 @@
 
 namespace interflect::fem {
 
-/// "single-plane": one square plane over each element's centroid, at height 1, of half side D = 10, by Warnock's subdivision [Sillion, Puech
-/// 1989] "A general two-pass method integrating specular and diffuse reflection", SIGGRAPH 89.
+/// "single-plane": one square plane over each element's centroid, at height 1, of half side D = 10, by Warnock's
+/// subdivision [Sillion, Puech 1989] "A general two-pass method integrating specular and diffuse reflection", SIGGRAPH
+/// 89.
 ///
 /// What arrives from beyond the square is lost, of every row
 ///
 ///   1 - 4/pi D/sqrt(1+D²) atan(D/sqrt(1+D²))   = 0.0081 for D = 10
 ///
-/// and reported (PairCounts::lost, and in the bounds of the entries that it is missing from); nothing is renormalised.  D = 10 leaves out
-/// what stands lower than 5.7 degrees over the horizon: less than the centroid errs by as a single
-/// view point in a room of elements of an ordinary size (docs/hemicube.md).  The loss falls as 0.82 / D², so that a greater plane helps a row's sum fast, at little
-/// cost, since far cells are large; but whatever D is, the foot of a wall that stands beside the element lies beyond the edge.
+/// and reported (PairCounts::lost, and in the bounds of the entries that it is missing from); nothing is renormalised.
+/// D = 10 leaves out what stands lower than 5.7 degrees over the horizon: less than the centroid errs by as a single
+/// view point in a room of elements of an ordinary size (docs/hemicube.md).  The loss falls as 0.82 / D², so that a
+/// greater plane helps a row's sum fast, at little cost, since far cells are large; but whatever D is, the foot of a
+/// wall that stands beside the element lies beyond the edge.
 ///
 /// Cells are cut until their form factor is at most that of a hemicube's largest cell, 4 / (pi resolution²).
 class SinglePlane final : public RowMethod {

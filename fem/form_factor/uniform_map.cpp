@@ -6,8 +6,8 @@
 namespace interflect::fem {
 namespace {
 
-/// x in [0, 1] of the density that goes linearly from `at_0` to `at_1`, where its integral is u times the whole: the root of
-/// (at_1 - at_0) x² + 2 at_0 x = u (at_0 + at_1), in the form that does not cancel.
+/// x in [0, 1] of the density that goes linearly from `at_0` to `at_1`, where its integral is u times the whole: the
+/// root of (at_1 - at_0) x² + 2 at_0 x = u (at_0 + at_1), in the form that does not cancel.
 double invert_linear(double at_0, double at_1, double u) {
   const double root = std::sqrt(std::max(0.0, at_0 * at_0 + u * (at_1 - at_0) * (at_1 + at_0)));
   return std::min(1.0, u * (at_0 + at_1) / (at_0 + root));
@@ -16,7 +16,10 @@ double invert_linear(double at_0, double at_1, double u) {
 }  // namespace
 
 UniformMap::UniformMap(std::span<const Vec3> ring)
-    : triangle_(ring.size() == 3), corner_(ring[0]), along_s_(ring[1] - corner_), along_t_(ring[triangle_ ? 2 : 3] - corner_) {
+    : triangle_(ring.size() == 3),
+      corner_(ring[0]),
+      along_s_(ring[1] - corner_),
+      along_t_(ring[triangle_ ? 2 : 3] - corner_) {
   if (triangle_) return;
   twist_ = ring[2] - ring[1] - along_t_;
   const Vec3 normal = (ring[2] - ring[0]).cross(ring[3] - ring[1]);

@@ -6,11 +6,11 @@
 
 namespace interflect::fem {
 
-/// From the unit square onto a triangle or a convex planar quad, area onto area: uniform numbers become uniform points, and
-/// evenly spread numbers evenly spread points.
+/// From the unit square onto a triangle or a convex planar quad, area onto area: uniform numbers become uniform points,
+/// and evenly spread numbers evenly spread points.
 ///
-/// Triangles by the map of [Turk 1990].  Quads by the bilinear map of (s, t), whose Jacobian w0 + s ws + t wt is linear on a
-/// plane, at s and t drawn by inversion: s from its marginal density, t from the conditional one.
+/// Triangles by the map of [Turk 1990].  Quads by the bilinear map of (s, t), whose Jacobian w0 + s ws + t wt is linear
+/// on a plane, at s and t drawn by inversion: s from its marginal density, t from the conditional one.
 class UniformMap {
  public:
   /// @param ring  3 or 4 corners [m]

@@ -9,7 +9,9 @@ ViewPlane::ViewPlane(Axis right, Axis up, Axis forward, const Rectangle& r)
       up_(up),
       forward_(forward),
       rectangle_(r),
-      pyramid_{geometry::Plane{{1, 0, -r.x_low}, 0}, {{-1, 0, r.x_high}, 0}, {{0, 1, -r.y_low}, 0}, {{0, -1, r.y_high}, 0}} {}
+      pyramid_{
+          geometry::Plane{{1, 0, -r.x_low}, 0}, {{-1, 0, r.x_high}, 0}, {{0, 1, -r.y_low}, 0}, {{0, -1, r.y_high}, 0}} {
+}
 
 ViewPlane ViewPlane::top(double half_side) {
   return {{0, 1}, {1, 1}, {2, 1}, {-half_side, half_side, -half_side, half_side}};
@@ -35,7 +37,8 @@ ProjectedPolygon ViewPlane::project(std::span<const Vec3> ring, const geometry::
   for (std::size_t k = 0; k < 4; ++k)
     if (cuts[k]) kept = geometry::clip(kept.ring(), pyramid_[k]);
   for (const Vec3& corner : kept.ring())
-    if (!(corner.z() > 0)) return projected;  // the eye itself: only of a polygon whose plane it lies in but for rounding
+    if (!(corner.z() > 0))
+      return projected;  // the eye itself: only of a polygon whose plane it lies in but for rounding
   for (int k = 0; k < kept.corners; ++k) {
     const Vec3& corner = kept.corner[static_cast<std::size_t>(k)];
     projected.x[static_cast<std::size_t>(k)] = corner.x() / corner.z();

@@ -10,14 +10,16 @@ namespace interflect::fem {
 /// A convex polygon as it appears on a view plane.
 struct ProjectedPolygon {
   static constexpr int capacity = 12;
-  std::array<double, capacity> x, y;  ///< corners, in order of either orientation; distances from the plane's foot, in units of its distance
-  int corners = 0;                    ///< 0 where nothing of it appears, else 3 or more
-  /// Nearness 1 / depth is linear on the view plane, q(x, y) = q0 + qx x + qy y [1/m], depth being measured along the plane's axis.
+  std::array<double, capacity> x,
+      y;  ///< corners, in order of either orientation; distances from the plane's foot, in units of its distance
+  int corners = 0;  ///< 0 where nothing of it appears, else 3 or more
+  /// Nearness 1 / depth is linear on the view plane, q(x, y) = q0 + qx x + qy y [1/m], depth being measured along the
+  /// plane's axis.
   double q0 = 0, qx = 0, qy = 0;
 };
 
-/// A rectangle [x_low, x_high] x [y_low, y_high] of the plane at distance 1 before an eye.  Its axes are those of the eye's frame, so that
-/// nothing is multiplied to turn into it.
+/// A rectangle [x_low, x_high] x [y_low, y_high] of the plane at distance 1 before an eye.  Its axes are those of the
+/// eye's frame, so that nothing is multiplied to turn into it.
 class ViewPlane {
  public:
   /// A signed axis of the eye's frame: 0, 1, 2 for s, t, n.
@@ -49,7 +51,8 @@ class ViewPlane {
 
   Axis right_, up_, forward_;
   Rectangle rectangle_;
-  std::array<geometry::Plane, 4> pyramid_;  ///< through the eye, fronts inwards, in (x, y, depth); normals of any length
+  std::array<geometry::Plane, 4>
+      pyramid_;  ///< through the eye, fronts inwards, in (x, y, depth); normals of any length
 };
 
 }  // namespace interflect::fem

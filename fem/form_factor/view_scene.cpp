@@ -10,7 +10,8 @@ namespace {
 constexpr double covered_part = 1 - 1e-9;  ///< of a side's area: then elements tile it
 
 /// Areas that elements cover of each surface's two sides [m²].
-std::vector<std::array<double, 2>> covered_areas(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches) {
+std::vector<std::array<double, 2>> covered_areas(const scene::Scene& scene,
+                                                 std::span<const scene::SurfacePatch> patches) {
   std::vector<std::array<double, 2>> areas(scene.surfaces.size(), {0, 0});
   for (const scene::SurfacePatch& patch : patches)
     if (patch.surface.value < areas.size()) areas[patch.surface.value][patch.side == scene::Side::back] += patch.area;
@@ -19,7 +20,8 @@ std::vector<std::array<double, 2>> covered_areas(const scene::Scene& scene, std:
 
 }  // namespace
 
-ViewScene::ViewScene(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, const ElementShapes& elements)
+ViewScene::ViewScene(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                     const ElementShapes& elements)
     : rounding_(elements), elements_(static_cast<Index>(patches.size())) {
   for (Index k = 0; k < elements_; ++k) shapes_.push_back(elements[k]);
   const auto covered = covered_areas(scene, patches);
@@ -31,7 +33,8 @@ ViewScene::ViewScene(const scene::Scene& scene, std::span<const scene::SurfacePa
     for (std::size_t k = 0; k < 3; ++k) ring[k] = facet.corner[k] - elements.origin();
     geometry::Plane plane{facet.normal, facet.normal.dot(ring[0])};
     for (const bool back : {false, true}) {
-      if (covered[facet.surface.value][back] < covered_part * areas[facet.surface.value]) shapes_.push_back(shape_of(ring, plane));
+      if (covered[facet.surface.value][back] < covered_part * areas[facet.surface.value])
+        shapes_.push_back(shape_of(ring, plane));
       std::swap(ring[1], ring[2]);
       plane = {-plane.normal, -plane.offset};
     }

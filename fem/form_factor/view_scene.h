@@ -20,11 +20,11 @@ struct FrontingPolygon {
   std::span<const Vec3> ring() const { return {corner.data(), corners}; }
 };
 
-/// All that an eye can see, as polygons that are seen from their fronts alone: the elements, and where a side of a surface is not tiled by
-/// elements (black backs, surfaces without elements), its facets.
+/// All that an eye can see, as polygons that are seen from their fronts alone: the elements, and where a side of a
+/// surface is not tiled by elements (black backs, surfaces without elements), its facets.
 ///
-/// So what blocks is the scene's facets, to the last one; and no element lies in the plane of a facet that is drawn with it, but on
-/// surfaces that elements cover in part.
+/// So what blocks is the scene's facets, to the last one; and no element lies in the plane of a facet that is drawn
+/// with it, but on surfaces that elements cover in part.
 class ViewScene {
  public:
   ViewScene(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, const ElementShapes& elements);
@@ -34,8 +34,8 @@ class ViewScene {
   bool is_element(Index shape) const { return shape < elements_; }
   const ElementShape& operator[](Index shape) const { return shapes_[static_cast<std::size_t>(shape)]; }
 
-  /// The shape as seen from an element's side; false where it is seen from behind or edge-on, or lies below the horizon.  What is as near to
-  /// a plane as rounding goes lies in it.
+  /// The shape as seen from an element's side; false where it is seen from behind or edge-on, or lies below the
+  /// horizon.  What is as near to a plane as rounding goes lies in it.
   bool fronting(const Eye& eye, Index element, Index shape, FrontingPolygon& polygon) const;
 
  private:

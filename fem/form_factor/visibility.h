@@ -22,23 +22,23 @@ struct SampledVisibility {
 ///
 ///   V = sum k v / sum k,   V' = (sum k v + k_mean) / (sum k + 2 k_mean),   s² = V' (1 - V') sum k² / (sum k)²
 ///
-/// s is the binomial one with the effective number of rays and two rays added, one clear and one blocked, so that n rays that
-/// agree are worth about 1/(n + 2) and not certainty [Agresti, Coull 1998].  Stratification makes the truth somewhat better
-/// than s.
+/// s is the binomial one with the effective number of rays and two rays added, one clear and one blocked, so that n
+/// rays that agree are worth about 1/(n + 2) and not certainty [Agresti, Coull 1998].  Stratification makes the truth
+/// somewhat better than s.
 SampledVisibility estimated_visibility(std::span<const double> weights, std::span<const std::uint8_t> blocked);
 
 /// Random pairings of m x m cells with m x m cells.
 ///
 /// A few permutations are drawn once; a pair of elements takes one of them and turns it by a random shift of rows and
-/// columns, so that every cell of one is joined with every cell of the other with equal probability: no bias, whatever the
-/// permutations.
+/// columns, so that every cell of one is joined with every cell of the other with equal probability: no bias, whatever
+/// the permutations.
 class CellPermutations {
  public:
   CellPermutations(int side, std::uint64_t seed);
   std::uint32_t side() const { return side_; }
 
-  /// Rows and columns as numbers 0 .. side - 1: of the cells in order, and of their partners for a pair's random numbers.
-  /// Both continue (with anything) for PointLanes::count cells beyond the last.
+  /// Rows and columns as numbers 0 .. side - 1: of the cells in order, and of their partners for a pair's random
+  /// numbers. Both continue (with anything) for PointLanes::count cells beyond the last.
   struct Pairing {
     const std::uint32_t *row, *column, *partner_row, *partner_column;  ///< partners before the turn
     std::uint32_t turn_rows, turn_columns;
@@ -56,16 +56,18 @@ enum class Effort : std::uint8_t { single, fourfold, sixteenfold };
 
 /// For a pair with this form factor (the larger of F_ij and F_ji): fourfold above 0.004, sixteenfold above 0.03.
 ///
-/// The noise of a row is sqrt(sum_j (F_ij s_ij B_j)²): a few large entries dominate it, and rays are best given in proportion
-/// to F [Neyman 1934]; four times as many halve such an entry's share.
+/// The noise of a row is sqrt(sum_j (F_ij s_ij B_j)²): a few large entries dominate it, and rays are best given in
+/// proportion to F [Neyman 1934]; four times as many halve such an entry's share.
 Effort effort_for(double form_factor);
 
-/// V_ij by rays between stratified points: with k = cos cos / r² at the k-th pair of points and v = 1 where it is clear,
+/// V_ij by rays between stratified points: with k = cos cos / r² at the k-th pair of points and v = 1 where it is
+/// clear,
 ///
 ///   V = sum k v / sum k        (a ratio estimator: its expected value is K_ij / K_ij,unoccluded up to O(1/n))
 ///
-/// Points: one in each of m x m cells of equal parameter area of i, each joined with a cell of j's by a random permutation.
-/// Random numbers are keyed by (seed, i, j): the answer does not depend on who asks, when, or in which block.
+/// Points: one in each of m x m cells of equal parameter area of i, each joined with a cell of j's by a random
+/// permutation. Random numbers are keyed by (seed, i, j): the answer does not depend on who asks, when, or in which
+/// block.
 class VisibilitySampler {
  public:
   /// What one thread needs; reused from pair to pair.

@@ -10,8 +10,9 @@ namespace interflect::fem {
 
 namespace {
 
-constexpr double rounding = 1e-12;  ///< of projected coordinates, relative to a cell or absolute: neighbours shall leave no gap
-constexpr int deepest = 40;         ///< cells this small are rounding, whatever was asked for
+constexpr double rounding =
+    1e-12;  ///< of projected coordinates, relative to a cell or absolute: neighbours shall leave no gap
+constexpr int deepest = 40;  ///< cells this small are rounding, whatever was asked for
 
 double factor_of(double x, double y, double half) {
   const double x0 = x - half, x1 = x + half, y0 = y - half, y1 = y + half;
@@ -31,7 +32,8 @@ void Warnock::add(const ProjectedPolygon& projected, std::int32_t item) {
   Polygon polygon{};
   for (std::size_t k = 0; k < corners; ++k) {
     const std::size_t next = k + 1 < corners ? k + 1 : 0;
-    const double dx = projected.x[next] - projected.x[k], dy = projected.y[next] - projected.y[k], length = std::hypot(dx, dy);
+    const double dx = projected.x[next] - projected.x[k], dy = projected.y[next] - projected.y[k],
+                 length = std::hypot(dx, dy);
     if (length == 0) continue;
     const double a = -sign * dy / length, b = sign * dx / length;
     polygon.edge[static_cast<std::size_t>(polygon.edges++)] = {a, b, -(a * projected.x[k] + b * projected.y[k])};
@@ -51,7 +53,8 @@ Warnock::Place Warnock::place(const Polygon& polygon, const Cell& cell) {
   Place found = Place::surrounding;
   for (int k = 0; k < polygon.edges; ++k) {
     const Line& edge = polygon.edge[static_cast<std::size_t>(k)];
-    const double middle = edge.at(cell.x, cell.y), reach = cell.half * (std::abs(edge.a) + std::abs(edge.b)), slack = rounding * (1 + reach);
+    const double middle = edge.at(cell.x, cell.y), reach = cell.half * (std::abs(edge.a) + std::abs(edge.b)),
+                 slack = rounding * (1 + reach);
     if (middle < -reach - slack) return Place::outside;
     if (middle < reach - slack) found = Place::crossing;
   }
@@ -67,7 +70,8 @@ void Warnock::keep_the_nearest(const Cell& cell, std::size_t begin, std::size_t 
     const Polygon& polygon = polygons_[index];
     const Place where = stack_[k].surrounds ? Place::surrounding : place(polygon, cell);
     if (where == Place::outside) continue;
-    const double middle = polygon.nearness(cell.x, cell.y), reach = cell.half * (std::abs(polygon.qx) + std::abs(polygon.qy));
+    const double middle = polygon.nearness(cell.x, cell.y),
+                 reach = cell.half * (std::abs(polygon.qx) + std::abs(polygon.qy));
     stack_.push_back({index, where == Place::surrounding, middle - reach, middle + reach});
     if (where == Place::surrounding && middle - reach > nearest) nearest = middle - reach, cover = stack_.size() - 1;
   }
@@ -85,7 +89,8 @@ void Warnock::sample(const Cell& cell, double factor, std::size_t begin, SeenIte
     const Polygon& polygon = polygons_[stack_[k].polygon];
     if (polygon.item >= 0) seen.border[static_cast<std::size_t>(polygon.item)] += factor * factor;
     const double nearness = polygon.nearness(cell.x, cell.y);
-    if (nearness > nearest && place(polygon, {cell.x, cell.y, 0}) != Place::outside) nearest = nearness, item = polygon.item;
+    if (nearness > nearest && place(polygon, {cell.x, cell.y, 0}) != Place::outside)
+      nearest = nearness, item = polygon.item;
   }
   if (item >= 0) seen.visible[static_cast<std::size_t>(item)] += factor;
 }

@@ -8,9 +8,10 @@
 
 namespace interflect::fem {
 
-/// What a square of a view plane sees, by subdivision [Warnock 1969], as [Sillion, Puech 1989] use it: a cell is quartered until one
-/// polygon covers it all in front of the others, or nothing is in it, or its form factor is small; a small one is worth what its middle sees.
-/// Cells' form factors are exact integrals, so that they sum to the square's.
+/// What a square of a view plane sees, by subdivision [Warnock 1969], as [Sillion, Puech 1989] use it: a cell is
+/// quartered until one polygon covers it all in front of the others, or nothing is in it, or its form factor is small;
+/// a small one is worth what its middle sees. Cells' form factors are exact integrals, so that they sum to the
+/// square's.
 class Warnock {
  public:
   /// @param half_side  of the square at distance 1   @param small  form factor of cells that are cut no more

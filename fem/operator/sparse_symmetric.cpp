@@ -87,7 +87,9 @@ void SparseSymmetric::multiply(const Value& value, solvers::ConstColumns b, solv
     const RowsOf<double> y{sums.data(), columns, from};
     for (Index P = first; P < end; ++P) {
       const Panel& p = panel(P);
-      add_pairs(p.place, P * panel_rows, [&](std::size_t k) { return value(p, k); }, columns, {b.data(), b.outerStride(), 0}, y);
+      add_pairs(
+          p.place, P * panel_rows, [&](std::size_t k) { return value(p, k); }, columns, {b.data(), b.outerStride(), 0},
+          y);
     }
     of_strips[static_cast<std::size_t>(s)] = std::move(sums);
   });
@@ -201,8 +203,8 @@ void SparseAssembly::add(Index a, Index b, const ExchangeEntry& entry) {
   if (entry.K == 0 && entry.standard_error == 0) return;
   Rows& panel = panels_[static_cast<std::size_t>(a / panel_rows)];
   const std::scoped_lock lock(panel.mutex);
-  panel.entries.push_back(
-      {entry.K, static_cast<SparseSymmetric::Place>(b * panel_rows + a % panel_rows), static_cast<float>(entry.standard_error)});
+  panel.entries.push_back({entry.K, static_cast<SparseSymmetric::Place>(b * panel_rows + a % panel_rows),
+                           static_cast<float>(entry.standard_error)});
 }
 
 /// In order; of a pair that was added several times the last.

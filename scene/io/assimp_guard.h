@@ -15,8 +15,8 @@ struct GuardedFile {
   std::optional<std::size_t> faces;
 };
 
-/// Refuses a PLY, STL, glTF or GLB file that promises more than it holds, or whose nodes form a ring: assimp believes headers,
-/// and would take the memory, read beyond it, or recurse, before it notices.
+/// Refuses a PLY, STL, glTF or GLB file that promises more than it holds, or whose nodes form a ring: assimp believes
+/// headers, and would take the memory, read beyond it, or recurse, before it notices.
 /// @throws core::InputError  "FILE: .."
 GuardedFile read_guarded(const std::filesystem::path& file, const std::string& shown);
 

@@ -37,7 +37,8 @@ Json only(const Json& object, std::initializer_list<const char*> keys) {
   return out;
 }
 
-/// The text without all that is no shape: skins, animations, textures, lights, which assimp trips over and nobody here needs.
+/// The text without all that is no shape: skins, animations, textures, lights, which assimp trips over and nobody here
+/// needs.
 Json shapes_of(const Json& root) {
   Json out = only(root, {"asset", "scene", "scenes", "accessors", "bufferViews", "buffers"});
   for (const Json* node : list_of(root, "nodes"))
@@ -56,7 +57,8 @@ Json shapes_of(const Json& root) {
   return out;
 }
 
-/// A glTF text whose sizes are held against each other: buffers against files, views against buffers, accessors against views.
+/// A glTF text whose sizes are held against each other: buffers against files, views against buffers, accessors against
+/// views.
 class GltfGuard {
  public:
   GltfGuard(const Json& root, std::size_t binary, std::filesystem::path folder, const std::string& shown)

@@ -22,7 +22,8 @@ struct JsonValue {
   std::vector<std::string> keys;  ///< of an object, beside `items`
 };
 
-/// A value seen from where it stands, so that complaints name their place: "office.json:41: /materials/walls/reflectance: ..".
+/// A value seen from where it stands, so that complaints name their place: "office.json:41:
+/// /materials/walls/reflectance: ..".
 ///
 /// A cursor: it must not outlive its JsonDocument.  Everything that does not fit throws core::InputError.
 class JsonNode {

@@ -18,8 +18,8 @@ struct Reading {
   std::size_t consumed = 0, counted = 0;
   int line = 1;
 
-  /// The line of the token that was read last.  A number is known to end only by the character after it, which may be a line
-  /// break: the last character consumed does not count.
+  /// The line of the token that was read last.  A number is known to end only by the character after it, which may be a
+  /// line break: the last character consumed does not count.
   int line_now() {
     for (const std::size_t end = consumed > 0 ? consumed - 1 : 0; counted < end; ++counted)
       line += text[counted] == '\n';

@@ -45,8 +45,10 @@ Thermal read_thermal(const JsonNode& node) {
   for (const char* key : {"reflectance", "exitance", "flux"})
     if (node.has(key)) node.at(key).fail("emissivity and " + std::string(key) + " exclude each other: give one");
   Thermal thermal{node.at("emissivity").number_in(0, 1), std::nullopt, 0};
-  if (thermal.emissivity == 0) node.at("emissivity").fail("an emissivity of 0 is not above 0: every surface absorbs some radiation");
-  if (node.has("temperature") == node.has("heat_flux")) node.fail("a temperature [K] or a heat_flux [W/m2] is expected beside an emissivity, one of them");
+  if (thermal.emissivity == 0)
+    node.at("emissivity").fail("an emissivity of 0 is not above 0: every surface absorbs some radiation");
+  if (node.has("temperature") == node.has("heat_flux"))
+    node.fail("a temperature [K] or a heat_flux [W/m2] is expected beside an emissivity, one of them");
   if (node.has("heat_flux")) {
     thermal.heat_flux = node.at("heat_flux").number();
     return thermal;

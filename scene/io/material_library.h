@@ -10,13 +10,15 @@
 
 namespace interflect::scene::io {
 
-/// Names of the channels: the key "channels", or what the lengths of the materials' arrays ask for: y, or r, g, b, or band_1 ..
+/// Names of the channels: the key "channels", or what the lengths of the materials' arrays ask for: y, or r, g, b, or
+/// band_1 ..
 std::vector<std::string> read_channels(const JsonNode& root);
 
 /// A number for every channel, or an array with one for each.
 Spectrum read_spectrum(const JsonNode& node, int channels);
 
-/// The key "materials".  A material enters the scene when it is used, once for each meaning of "sides" where it does not say.
+/// The key "materials".  A material enters the scene when it is used, once for each meaning of "sides" where it does
+/// not say.
 class MaterialLibrary {
  public:
   MaterialLibrary(const JsonNode& materials, int channels);

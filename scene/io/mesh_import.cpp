@@ -18,13 +18,15 @@ using Triangles = std::vector<geometry::TriangleCorners>;
 /// Area over the squared diameter below which a face has none.
 constexpr double flatness = 1e-12;
 
-/// Width of a face below which it may not be cut further, in units of its coordinates' rounding: its quarters would have no area.
+/// Width of a face below which it may not be cut further, in units of its coordinates' rounding: its quarters would
+/// have no area.
 constexpr double resolution = 64 * std::numeric_limits<double>::epsilon();
 
 bool has_area(std::span<const Vec3> ring) {
   if (ring.size() < 3) return false;
   const geometry::Box box = geometry::box_of(ring);
-  const double diameter = box.diagonal().norm(), distance = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double diameter = box.diagonal().norm(),
+               distance = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   return geometry::vector_area(ring).norm() > diameter * std::max(flatness * diameter, resolution * distance);
 }
 

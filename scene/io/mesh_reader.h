@@ -10,7 +10,8 @@
 
 namespace interflect::scene::io {
 
-/// A mesh file as it is: nothing moved, repaired or triangulated yet.  Every index is in range and every coordinate finite.
+/// A mesh file as it is: nothing moved, repaired or triangulated yet.  Every index is in range and every coordinate
+/// finite.
 struct MeshFile {
   struct Face {
     std::uint32_t first, corners;  ///< indices[first .. first + corners), corners >= 3

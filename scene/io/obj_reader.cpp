@@ -1,5 +1,5 @@
-// Wavefront OBJ through tinyobjloader, which knows the grammar.  Numbers and indices are checked here: the library takes what it
-// cannot read for 0, and its decimals are not rounded correctly.
+// Wavefront OBJ through tinyobjloader, which knows the grammar.  Numbers and indices are checked here: the library
+// takes what it cannot read for 0, and its decimals are not rounded correctly.
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
@@ -25,8 +25,8 @@ class TextBuffer : public std::streambuf {
   std::size_t position() const { return static_cast<std::size_t>(gptr() - eback()); }
 };
 
-/// The text with nothing in it that the library stumbles over, byte for byte in place: lone carriage returns end lines, a
-/// backslash before a line's end continues it, and comments behind vertices and faces are blanks.
+/// The text with nothing in it that the library stumbles over, byte for byte in place: lone carriage returns end lines,
+/// a backslash before a line's end continues it, and comments behind vertices and faces are blanks.
 std::string plain_lines(std::string text) {
   for (std::size_t k = 0; k < text.size(); ++k)
     if (text[k] == '\r') text[k] = k + 1 < text.size() && text[k + 1] == '\n' ? ' ' : '\n';

@@ -40,9 +40,7 @@ std::array<double, 2> cosine_sine(double degrees) {
   }
 }
 
-LengthUnit read_unit(const JsonNode& node) {
-  return units[node.one_of({unit_names.begin(), unit_names.end()})];
-}
+LengthUnit read_unit(const JsonNode& node) { return units[node.one_of({unit_names.begin(), unit_names.end()})]; }
 
 LengthUnit unit_named(const std::string& name) {
   for (std::size_t k = 0; k < units.size(); ++k)

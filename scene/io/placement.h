@@ -31,8 +31,8 @@ struct Placement {
   Vec3 operator()(const Vec3& x) const { return unit.metres(Vec3(linear * x + translation)); }
 };
 
-/// The key "transform" of a geometry entry, where it has one: scaled, then turned about x, y and z of the scene, in this order,
-/// then moved.  Multiples of 90 degrees are exact.
+/// The key "transform" of a geometry entry, where it has one: scaled, then turned about x, y and z of the scene, in
+/// this order, then moved.  Multiples of 90 degrees are exact.
 Placement read_placement(const JsonNode& entry, const LengthUnit& unit);
 
 }  // namespace interflect::scene::io

@@ -91,7 +91,8 @@ class View3dReader {
       case 'O':
         return read_surface(Kind::obstruction);
       default:
-        fail("the key '" + shown_word(line_.words[0]) + "' is not known: one of T, C, F, V, S, M, N, O, X, E is expected");
+        fail("the key '" + shown_word(line_.words[0]) +
+             "' is not known: one of T, C, F, V, S, M, N, O, X, E is expected");
     }
   }
 
@@ -128,7 +129,8 @@ class View3dReader {
 
   void read_format() {
     const std::string format = core::lower_case(std::string(word("the format")));
-    if (format != "3" && format != "3a") fail("the format '" + shown_word(format) + "' is not known: 3 or 3a is expected");
+    if (format != "3" && format != "3a")
+      fail("the format '" + shown_word(format) + "' is not known: 3 or 3a is expected");
     if (!vertices_.empty() || !surfaces_.empty()) fail("the format comes before vertices and surfaces");
     by_vertices_ = format == "3";
   }
@@ -167,7 +169,8 @@ class View3dReader {
 
   Corners read_corners() {
     Corners corners;
-    for (int k = 0; k < 4; ++k) corners.vertex.push_back(count("a vertex number (of four: 0 as the last of a triangle)"));
+    for (int k = 0; k < 4; ++k)
+      corners.vertex.push_back(count("a vertex number (of four: 0 as the last of a triangle)"));
     if (corners.vertex[3] == 0) corners.vertex.pop_back();
     return corners;
   }
@@ -176,7 +179,8 @@ class View3dReader {
     const std::string_view given = word("the shape");
     const char shape = static_cast<char>(std::toupper(static_cast<unsigned char>(given[0])));
     if (shape != 'R' && shape != 'Q' && shape != 'T')
-      fail("the shape '" + shown_word(given) + "' is not known: R (rectangle), Q (quadrilateral) or T (triangle) is expected");
+      fail("the shape '" + shown_word(given) +
+           "' is not known: R (rectangle), Q (quadrilateral) or T (triangle) is expected");
     return shape;
   }
 
@@ -211,8 +215,7 @@ class View3dReader {
     const auto [ct, st] = cosine_sine(v[4]);
     // Seen from the active side: to the right, and up.  The azimuth runs clockwise from y, a tilt of 0 looks to z.
     const Vec3 right(-ca, sa, 0), up(-sa * ct, -ca * ct, st);
-    if (shape == 'R')
-      return {origin + v[6] * up, origin, origin + v[5] * right, origin + v[5] * right + v[6] * up};
+    if (shape == 'R') return {origin + v[6] * up, origin, origin + v[5] * right, origin + v[5] * right + v[6] * up};
     geometry::Ring ring;
     for (std::size_t k = 0; k < corners; ++k) ring.emplace_back(origin + v[5 + 2 * k] * right + v[6 + 2 * k] * up);
     return ring;
@@ -224,14 +227,15 @@ class View3dReader {
     const std::size_t all = surfaces_.size();
     for (const std::size_t vertex : corners_[n - 1].vertex) {
       if (vertex == 0 || vertex > vertices_.size())
-        fail_at(s.line, core::format("surface %zu refers to vertex %zu, and there are %zu", n, vertex, vertices_.size()));
+        fail_at(s.line,
+                core::format("surface %zu refers to vertex %zu, and there are %zu", n, vertex, vertices_.size()));
       s.ring.push_back(vertices_[vertex - 1]);
     }
     const bool covers = s.kind == Kind::mask || s.kind == Kind::null;
     if (covers && s.base == 0) fail_at(s.line, core::format("surface %zu needs a base surface, which it covers", n));
     if (s.base != 0) {
-      const bool good = s.base <= all && s.base != n &&
-                        (s.base < n || (!covers && surfaces_[s.base - 1].kind == Kind::obstruction));
+      const bool good =
+          s.base <= all && s.base != n && (s.base < n || (!covers && surfaces_[s.base - 1].kind == Kind::obstruction));
       if (!good || surfaces_[s.base - 1].kind == Kind::mask || surfaces_[s.base - 1].kind == Kind::null)
         fail_at(s.line, core::format("surface %zu cannot have surface %zu as its base", n, s.base));
     }

@@ -16,8 +16,8 @@ using Kind = View3dSurface::Kind;
 /// Lengths below it, in units of a polygon's diameter, are rounding: as planarity_tolerance has it.
 constexpr double slack = geometry::planarity_tolerance;
 
-/// The part of a convex ring in front of a plane; corners nearer than `tolerance` lie on it.  Empty where that has no corner
-/// inside.
+/// The part of a convex ring in front of a plane; corners nearer than `tolerance` lie on it.  Empty where that has no
+/// corner inside.
 Ring in_front(const Ring& ring, const geometry::Plane& plane, double tolerance) {
   std::vector<double> distance;
   for (const Vec3& x : ring) {
@@ -119,8 +119,9 @@ class View3dImport {
         fail(k, core::format("does not lie in the plane of its base, surface %zu", s.base));
     const bool same_way = geometry::plane_of(s.ring).normal.dot(plane.normal) > 0;
     if (same_way != (s.kind == Kind::radiating))
-      fail(k, core::format(same_way ? "must face its base, surface %zu" : "must face the way that its base faces, surface %zu",
-                           s.base));
+      fail(k, core::format(
+                  same_way ? "must face its base, surface %zu" : "must face the way that its base faces, surface %zu",
+                  s.base));
   }
 
   /// What is left of a surface beside those that cover it, as convex rings.

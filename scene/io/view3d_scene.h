@@ -9,7 +9,8 @@
 
 namespace interflect::scene::io {
 
-/// Puts the surfaces of a View3D file, placed, into the scene and what belongs to it: bases lose the parts that others cover.
+/// Puts the surfaces of a View3D file, placed, into the scene and what belongs to it: bases lose the parts that others
+/// cover.
 /// @param out    its surfaces and masks; its scene is the builder's
 /// @param shown  the file in messages
 void import_view3d(SceneBuilder& builder, ExchangeScene& out, const std::vector<View3dSurface>& surfaces, Sides sides,

@@ -148,12 +148,14 @@ VtkArrays::VtkArrays(const XmlElement& root, const std::string& shown) : shown_(
     fail(root, unknown_word("the byte order", order, {"LittleEndian", "BigEndian"}));
   swap_ = (order == "LittleEndian") != (std::endian::native == std::endian::little);
   const std::string header = attribute_or(root, "header_type", "UInt32");
-  if (header != "UInt32" && header != "UInt64") fail(root, unknown_word("the header type", header, {"UInt32", "UInt64"}));
+  if (header != "UInt32" && header != "UInt64")
+    fail(root, unknown_word("the header type", header, {"UInt32", "UInt64"}));
   header_bytes_ = header == "UInt32" ? 4 : 8;
   const XmlElement* appended = root.child("AppendedData");
   if (!appended) return;
   const std::string encoding = attribute_or(*appended, "encoding", "base64");
-  if (encoding != "raw" && encoding != "base64") fail(*appended, unknown_word("the encoding", encoding, {"raw", "base64"}));
+  if (encoding != "raw" && encoding != "base64")
+    fail(*appended, unknown_word("the encoding", encoding, {"raw", "base64"}));
   appended_base64_ = encoding == "base64";
   const std::size_t start = appended->text.find('_');
   if (start == std::string_view::npos) fail(*appended, "the appended data do not begin with '_'");
@@ -210,7 +212,8 @@ std::string VtkArrays::decoded(const XmlElement& array) const {
 
 std::vector<double> VtkArrays::numbers(const XmlElement& array, std::uint64_t count) const {
   const std::string name = attribute_or(array, "type", "");
-  const auto type = std::find_if(number_types.begin(), number_types.end(), [&](const NumberType& t) { return t.name == name; });
+  const auto type =
+      std::find_if(number_types.begin(), number_types.end(), [&](const NumberType& t) { return t.name == name; });
   if (type == number_types.end()) fail(array, "the type '" + shown_word(name) + "' is not a known type of numbers");
   std::vector<double> out;
   if (attribute_or(array, "format", "") == "ascii") {

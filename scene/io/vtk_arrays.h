@@ -9,8 +9,8 @@
 
 namespace interflect::scene::io {
 
-/// The numbers of VTK's XML files in each way in which they are written: as text; in base64; behind the rest, as they are or in
-/// base64; bare or compressed by zlib; of either byte order.
+/// The numbers of VTK's XML files in each way in which they are written: as text; in base64; behind the rest, as they
+/// are or in base64; bare or compressed by zlib; of either byte order.
 class VtkArrays {
  public:
   /// @param root  <VTKFile>

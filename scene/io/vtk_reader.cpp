@@ -99,7 +99,8 @@ class VtkReader {
     cell_ = 0;
     if (!poly_data_) return read_cells(piece, "Cells", cells, std::nullopt);
     for (const std::size_t k : order)
-      read_cells(piece, parts[k].first, count(piece, (std::string("NumberOf") + parts[k].first).c_str()), parts[k].second);
+      read_cells(piece, parts[k].first, count(piece, (std::string("NumberOf") + parts[k].first).c_str()),
+                 parts[k].second);
   }
 
   void read_points(const XmlElement& piece, std::uint64_t points) {
@@ -146,7 +147,8 @@ class VtkReader {
     const auto points = static_cast<double>(mesh_.vertices.size() - first_vertex_);
     for (const double corner : corners)
       if (!(corner >= 0 && corner < points) || corner != std::floor(corner))
-        arrays_.fail(corners_of, core::format("a cell refers to point %.12g of %.0f, which count from 0", corner, points));
+        arrays_.fail(corners_of,
+                     core::format("a cell refers to point %.12g of %.0f, which count from 0", corner, points));
     const std::vector<double> types = type ? std::vector<double>() : arrays_.numbers(array(*within, "types"), cells);
     std::size_t at = 0;
     for (std::size_t k = 0; k < ends.size(); ++k, ++cell_) {
@@ -160,7 +162,8 @@ class VtkReader {
 
   void add_cell(int type) {
     const std::size_t n = corners_.size();
-    if ((type == triangle && n == 3) || (type == quad && n == 4) || (type == polygon && n >= 3)) return add_face(corners_);
+    if ((type == triangle && n == 3) || (type == quad && n == 4) || (type == polygon && n >= 3))
+      return add_face(corners_);
     if (type == pixel && n == 4) return add_face({{corners_[0], corners_[1], corners_[3], corners_[2]}});
     if (type != strip || n < 3) {
       ++ignored_;

@@ -19,8 +19,9 @@ struct XmlElement {
   const XmlElement* child(std::string_view key) const;  ///< the first of that name
 };
 
-/// The root of an XML text: elements, attributes, comments, the five named entities; nesting to 32.  Of an element called `raw`
-/// all that follows to the end of the bytes is its text, and ends the document: VTK puts binary data there.
+/// The root of an XML text: elements, attributes, comments, the five named entities; nesting to 32.  Of an element
+/// called `raw` all that follows to the end of the bytes is its text, and ends the document: VTK puts binary data
+/// there.
 /// @param bytes  outlive what is returned
 /// @throws core::InputError  "FILE:LINE: what was expected"
 XmlElement parse_xml(std::string_view bytes, std::string_view raw, const std::string& shown);

@@ -147,7 +147,8 @@ TEST(Solve, the_cube_has_its_known_discrete_solution) {
 TEST(Solve, repairs_drops_and_meets_tolerances_as_asked) {
   const TemporaryFolder folder;
   const auto record = [&](const std::string& scene, std::vector<std::string> options, const std::string& said) {
-    std::vector<std::string> arguments{"solve", shipped_scene(scene), "--element-size", "0.25", "--no-pictures", "-o", folder / "out"};
+    std::vector<std::string> arguments{"solve", shipped_scene(scene), "--element-size", "0.25", "--no-pictures",
+                                       "-o",    folder / "out"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Outcome solve = interflect(arguments);
     EXPECT_EQ(solve.status, 0) << solve.err;
@@ -160,7 +161,9 @@ TEST(Solve, repairs_drops_and_meets_tolerances_as_asked) {
   r = record("cube", {"--restore-closure"}, "rows        sum_j F_ij: mean 1.000000, from 1.000000 to 1.000000");
   EXPECT_EQ(r.at("settings").at("closure"), "scaling");
   r = record("parallel_plates", {"--closure", "least-squares"}, "environment ");
-  EXPECT_NEAR(r.at("form_factors").at("environment_mean").get<double>() + r.at("form_factors").at("row_sum_mean").get<double>(), 1, 1e-12);
+  EXPECT_NEAR(
+      r.at("form_factors").at("environment_mean").get<double>() + r.at("form_factors").at("row_sum_mean").get<double>(),
+      1, 1e-12);
   r = record("cube", {"--drop-below", "0.02"}, "of the pairs; dropped sum_j F_ij: mean");
   EXPECT_LT(r.at("form_factors").at("kept_share"), 1);
   EXPECT_GT(r.at("form_factors").at("dropped_mean"), 0);

@@ -34,7 +34,10 @@ TEST_P(ThreadCount, a_sum_has_the_same_bits) {
 
 TEST_P(ThreadCount, an_exception_reaches_the_caller) {
   const Threads threads(GetParam());
-  EXPECT_THROW(threads.for_blocks(100, 1, [](Index begin, Index) { if (begin == 50) throw std::runtime_error("here"); }),
+  EXPECT_THROW(threads.for_blocks(100, 1,
+                                  [](Index begin, Index) {
+                                    if (begin == 50) throw std::runtime_error("here");
+                                  }),
                std::runtime_error);
 }
 

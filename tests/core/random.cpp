@@ -27,8 +27,8 @@ TEST(Random, a_uniform_number_is_never_one) {
   EXPECT_EQ(uniform_53(0, 0), 0.0);
 }
 
-// Mean of n uniforms: standard deviation sqrt(1/(12 n)); second moment 1/3 with sqrt(4/45/n).  Two two-sided tests, alpha 1e-6
-// each: 4.9 standard deviations.
+// Mean of n uniforms: standard deviation sqrt(1/(12 n)); second moment 1/3 with sqrt(4/45/n).  Two two-sided tests,
+// alpha 1e-6 each: 4.9 standard deviations.
 TEST(Random, numbers_have_the_moments_of_the_uniform_distribution) {
   constexpr int n = 1'000'000;
   double sum = 0, squares = 0;

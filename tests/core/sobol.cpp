@@ -15,9 +15,14 @@ namespace {
 TEST(Sobol, first_points_are_the_published_ones) {
   const Sobol sobol;
   const auto at = [&](std::uint32_t k, std::size_t d) { return sobol.point<4>(k)[d] * 0x1p-32; };
-  const std::vector<std::array<double, 4>> expected{{0, 0, 0, 0},           {.5, .5, .5, .5},         {.25, .75, .75, .75},
-                                                    {.75, .25, .25, .25},   {.125, .625, .375, .125}, {.625, .125, .875, .625},
-                                                    {.375, .375, .625, .875}, {.875, .875, .125, .375}};
+  const std::vector<std::array<double, 4>> expected{{0, 0, 0, 0},
+                                                    {.5, .5, .5, .5},
+                                                    {.25, .75, .75, .75},
+                                                    {.75, .25, .25, .25},
+                                                    {.125, .625, .375, .125},
+                                                    {.625, .125, .875, .625},
+                                                    {.375, .375, .625, .875},
+                                                    {.875, .875, .125, .375}};
   for (std::uint32_t k = 0; k < 8; ++k)
     for (std::size_t d = 0; d < 4; ++d) EXPECT_EQ(at(k, d), expected[k][d]) << k << ' ' << d;
 }
@@ -52,8 +57,9 @@ TEST(Sobol, dimensions_0_and_1_have_one_point_in_each_elementary_rectangle) {
       }
 }
 
-// The mean of a product of 1 + (x_d - 1/2) over four dimensions is 1.  Over 64 scrambles and shifts, two-sided at alpha 1e-6 by
-// Student's t with 63 degrees of freedom: 5.4 standard errors; and far below the plain 0.35 / 32 of 1024 independent points.
+// The mean of a product of 1 + (x_d - 1/2) over four dimensions is 1.  Over 64 scrambles and shifts, two-sided at alpha
+// 1e-6 by Student's t with 63 degrees of freedom: 5.4 standard errors; and far below the plain 0.35 / 32 of 1024
+// independent points.
 TEST(Sobol, scrambled_and_shifted_means_are_unbiased_and_better_than_random_ones) {
   constexpr int sets = 64, n = 1024;
   double sum = 0, squares = 0;

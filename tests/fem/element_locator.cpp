@@ -32,11 +32,13 @@ TEST(ElementLocator, finds_what_the_mesh_locates_wherever_a_ray_hits) {
       const auto caster = raycast::make_ray_caster(name, scene);
       for (std::uint64_t i = 0; i < 20'000; ++i) {
         core::RandomNumbers numbers(7, 0, i);
-        const Vec3 direction = interflect::test::cosine_about(i % 2 == 0 ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitX()), numbers);
+        const Vec3 direction =
+            interflect::test::cosine_about(i % 2 == 0 ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitX()), numbers);
         const auto hit = caster->closest({placing(Vec3(0.3, 0.1 * numbers.next(), 0.3)), direction});
         ASSERT_TRUE(hit);
         const auto expected = mesh.locate(*hit);
-        ASSERT_EQ(locate(*hit), expected ? static_cast<Index>(expected->element.value) : ElementLocator::none) << name << i;
+        ASSERT_EQ(locate(*hit), expected ? static_cast<Index>(expected->element.value) : ElementLocator::none)
+            << name << i;
       }
     }
   }
@@ -53,7 +55,8 @@ TEST(ElementLocator, loses_no_corner_of_an_element) {
       point.surface = patch.surface, point.side = patch.side, point.position = corner + Vec3(1e-14, -1e-14, 1e-14);
       const Index found = locate(point);
       ASSERT_NE(found, ElementLocator::none);
-      EXPECT_LT(geometry::box_of(mesh.patches()[static_cast<std::size_t>(found)].ring()).exteriorDistance(corner), 1e-12);
+      EXPECT_LT(geometry::box_of(mesh.patches()[static_cast<std::size_t>(found)].ring()).exteriorDistance(corner),
+                1e-12);
     }
 }
 

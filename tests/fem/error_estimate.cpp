@@ -94,8 +94,8 @@ TEST(ErrorEstimate, covers_the_error_where_there_are_shadows) {
   RecordProperty("covered", std::to_string(double(c.covered) / c.elements));
 }
 
-// Noise: solutions of the same elements from other seeds scatter by what they say.  Root mean square over elements and seeds; the
-// standard error of a row sum is cautious, never small.
+// Noise: solutions of the same elements from other seeds scatter by what they say.  Root mean square over elements and
+// seeds; the standard error of a row sum is cautious, never small.
 TEST(ErrorEstimate, noise_of_irradiance_is_what_seeds_scatter_by) {
   constexpr int seeds = 6;
   std::vector<RadiositySolution> solutions;
@@ -116,8 +116,8 @@ TEST(ErrorEstimate, noise_of_irradiance_is_what_seeds_scatter_by) {
   EXPECT_LT(ratio, 1.0);
 }
 
-// Means over whole surfaces scatter less than their elements do, but not as if nothing were common to them: what later bounces
-// make of noise is one number for all.  Bright walls, so that there are many bounces.
+// Means over whole surfaces scatter less than their elements do, but not as if nothing were common to them: what later
+// bounces make of noise is one number for all.  Bright walls, so that there are many bounces.
 TEST(ErrorEstimate, noise_of_means_over_surfaces_is_what_seeds_scatter_by) {
   constexpr int seeds = 16;
   scene::Scene scene = shadowed();

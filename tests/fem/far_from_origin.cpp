@@ -22,7 +22,8 @@ std::vector<scene::SurfacePatch> turned_corridor(double size, const Vec3& shift)
   std::vector<scene::SurfacePatch> patches;
   for (std::uint32_t side = 0; side < 6; ++side) {
     const int axis = static_cast<int>(side / 2), first = (axis + 1) % 3, second = (axis + 2) % 3;
-    const Index nu = std::max(1L, std::lround(extent[first] / size)), nv = std::max(1L, std::lround(extent[second] / size));
+    const Index nu = std::max(1L, std::lround(extent[first] / size)),
+                nv = std::max(1L, std::lround(extent[second] / size));
     const auto at = [&](Index i, Index j) -> Vec3 {
       Vec3 x = Vec3::Zero();
       x[axis] = side % 2 == 0 ? 0.0 : extent[axis];

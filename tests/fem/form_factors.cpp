@@ -56,9 +56,9 @@ TEST(FormFactors, are_of_the_parts_in_front_of_each_other) {
   EXPECT_EQ(form_factor(unit_square(), coplanar, 1e-3), 0.0);
 }
 
-// A_1 F_12 = A_2 F_21 holds by construction; that F is divided by the right area shows where areas differ: a small disc-like
-// patch of side .01 under a large one sees all of it, F = Lambert's at its centre to (side/distance)², the other way 10^-4 of
-// that.
+// A_1 F_12 = A_2 F_21 holds by construction; that F is divided by the right area shows where areas differ: a small
+// disc-like patch of side .01 under a large one sees all of it, F = Lambert's at its centre to (side/distance)², the
+// other way 10^-4 of that.
 TEST(FormFactors, of_very_unequal_areas_are_divided_by_the_area_that_sends) {
   const auto small = patch(0, {{.495, .495, 0}, {.505, .495, 0}, {.505, .505, 0}, {.495, .505, 0}});
   const auto large = patch(1, {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}});

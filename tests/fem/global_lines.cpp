@@ -41,14 +41,18 @@ TEST(GlobalLines, meet_a_patch_with_probability_A_over_2_pi_R2_and_a_convex_body
   double body = 0;
   for_lines(method, [&](const raycast::Ray&, const auto& hits, const auto& pairs) {
     body += !hits.empty();
-    for (const GlobalLines::Pair& pair : pairs) ++met[static_cast<std::size_t>(pair.from)], ++met[static_cast<std::size_t>(pair.to)];
+    for (const GlobalLines::Pair& pair : pairs)
+      ++met[static_cast<std::size_t>(pair.from)], ++met[static_cast<std::size_t>(pair.to)];
   });
-  const auto expect = [&](double count, double p) { EXPECT_NEAR(count, lines * p, 4.5 * std::sqrt(lines * p * (1 - p))); };
+  const auto expect = [&](double count, double p) {
+    EXPECT_NEAR(count, lines * p, 4.5 * std::sqrt(lines * p * (1 - p)));
+  };
   for (const double count : met) expect(count, 0.25 / (2 * pi * 0.75));
   expect(body, 0.6366197723675815);  // 6 / (4 pi R²)
 }
 
-// In a convex room a line makes one pair or none: chi-squared of a multinomial with p = K / (2 pi R²), alpha 3e-6 each side.
+// In a convex room a line makes one pair or none: chi-squared of a multinomial with p = K / (2 pi R²), alpha 3e-6 each
+// side.
 TEST(GlobalLines, join_pairs_in_proportion_to_their_exchange) {
   const Sampled sampled(cube(2));
   const GlobalLines method(sampled.context(lines));
@@ -84,7 +88,8 @@ double kolmogorov_smirnov(std::vector<double> numbers) {
   const auto n = static_cast<double>(numbers.size());
   double distance = 0;
   for (std::size_t k = 0; k < numbers.size(); ++k)
-    distance = std::max({distance, numbers[k] - static_cast<double>(k) / n, static_cast<double>(k + 1) / n - numbers[k]});
+    distance =
+        std::max({distance, numbers[k] - static_cast<double>(k) / n, static_cast<double>(k + 1) / n - numbers[k]});
   return std::sqrt(n) * distance;
 }
 

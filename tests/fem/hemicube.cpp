@@ -23,7 +23,8 @@ constexpr double top_fraction = 0.5541264239795719, side_fraction = 0.1114683940
 
 TEST(HemicubeGrid, exact_cells_sum_to_one_at_any_resolution) {
   for (const int resolution : {2, 16, 32, 50, 256, 512})
-    for (const HemicubeGrid& grid : {HemicubeGrid::uniform(resolution), HemicubeGrid::equal_factor(resolution), max_cells(resolution)}) {
+    for (const HemicubeGrid& grid :
+         {HemicubeGrid::uniform(resolution), HemicubeGrid::equal_factor(resolution), max_cells(resolution)}) {
       EXPECT_NEAR(grid.sum(), 1, 1e-14) << resolution;
       EXPECT_EQ(grid.cells(), 3 * resolution * resolution);
       for (const double weight : grid.top.weight) ASSERT_GT(weight, 0);
@@ -48,7 +49,8 @@ TEST(HemicubeGrid, midpoint_weights_miss_one_by_the_known_amounts) {
   for (const auto& [resolution, error] : std::map<int, double>{
            {16, 2.123e-3}, {32, 5.296e-4}, {64, 1.323e-4}, {128, 3.308e-5}, {256, 8.270e-6}, {512, 2.067e-6}}) {
     const double half_a_digit = 0.5005e-3 * std::pow(10, std::floor(std::log10(error)));
-    EXPECT_NEAR(std::abs(HemicubeGrid::uniform(resolution, CellWeights::midpoint).sum() - 1), error, half_a_digit) << resolution;
+    EXPECT_NEAR(std::abs(HemicubeGrid::uniform(resolution, CellWeights::midpoint).sum() - 1), error, half_a_digit)
+        << resolution;
   }
 }
 
@@ -62,8 +64,8 @@ TEST(HemicubeGrid, an_odd_resolution_is_refused_by_the_grid_and_rounded_up_by_th
 /// What aliasing alone makes of a form factor, for edges of total length `edges` [rad]: max_cells.h.
 double aliasing(const HemicubeGrid& grid, double edges) { return std::sqrt(edges * edge_error(grid) / (12 * pi * pi)); }
 
-// One view point at the centre, and so the wrong limits: methods.md 1.12; the true ones are 0.2000437761 and 0.1998248957.  Four standard
-// deviations of aliasing, for edges of 2 pi together.
+// One view point at the centre, and so the wrong limits: methods.md 1.12; the true ones are 0.2000437761 and
+// 0.1998248957.  Four standard deviations of aliasing, for edges of 2 pi together.
 TEST(Hemicube, of_one_point_converges_to_its_wrong_limits) {
   Room perpendicular, parallel;
   perpendicular.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1);
@@ -73,8 +75,10 @@ TEST(Hemicube, of_one_point_converges_to_its_wrong_limits) {
   const auto across = perpendicular.finish(), above = parallel.finish();
   for (const char* name : {"hemicube", "hemicube-midpoint", "hemicube-max"})
     for (const int resolution : {64, 256, 1024}) {
-      const double tolerance = 4 * aliasing(HemicubeGrid::uniform(resolution), 2 * pi) + (name[8] == '-' ? 0.55 / resolution / resolution : 0);
-      const Views F = views(name, across, perpendicular.patches, resolution), G = views(name, above, parallel.patches, resolution);
+      const double tolerance = 4 * aliasing(HemicubeGrid::uniform(resolution), 2 * pi) +
+                               (name[8] == '-' ? 0.55 / resolution / resolution : 0);
+      const Views F = views(name, across, perpendicular.patches, resolution),
+                  G = views(name, above, parallel.patches, resolution);
       for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0)}) {
         EXPECT_NEAR(F.K(a, b), 0.1901358824, tolerance) << name << " " << resolution;
         EXPECT_NEAR(G.K(a, b), 0.2394564705, tolerance) << name << " " << resolution;
@@ -92,14 +96,16 @@ Ring random_triangle(core::RandomNumbers& u) {
       if (Vec3 p = 2 * Vec3(x, y, z) - Vec3::Ones(); p.norm() < 1) return p;
     }
   };
-  const Vec3 centre = ball().normalized(), a = centre + 0.6 * ball(), b = centre + 0.6 * ball(), c = centre + 0.6 * ball();
+  const Vec3 centre = ball().normalized(), a = centre + 0.6 * ball(), b = centre + 0.6 * ball(),
+             c = centre + 0.6 * ball();
   return {a, b, c};
 }
 double exact_factor(const Ring& ring) { return point_to_polygon(Vec3::Zero(), Vec3::UnitZ(), ring); }
 double seen_factor(HemicubeSight& sight, const Ring& ring) { return sight.add(ring, geometry::plane_of(ring), 0); }
 double edge_length(const Ring& ring) {
   double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += std::acos(std::clamp(ring[k].normalized().dot(ring[(k + 1) % 3].normalized()), -1.0, 1.0));
+  for (std::size_t k = 0; k < 3; ++k)
+    sum += std::acos(std::clamp(ring[k].normalized().dot(ring[(k + 1) % 3].normalized()), -1.0, 1.0));
   return sum;
 }
 
@@ -135,7 +141,8 @@ TEST(HemicubeSight, all_items_and_the_sky_sum_to_one) {
   }
 }
 
-// Turned about the zenith an item's factor varies by aliasing alone: with the variance that `border` states, border / 17.
+// Turned about the zenith an item's factor varies by aliasing alone: with the variance that `border` states, border /
+// 17.
 TEST(HemicubeSight, turned_about_the_zenith_varies_as_its_border_cells_say) {
   for (const HemicubeGrid& grid : {HemicubeGrid::uniform(64), max_cells(64)}) {
     HemicubeSight sight(grid);
@@ -189,7 +196,8 @@ double root_mean_square(const std::vector<double>& values) {
 
 // Random edges: N^-1.5.
 TEST(HemicubeSight, errors_of_random_triangles_fall_as_cells_to_the_power_of_three_quarters) {
-  const double coarse = root_mean_square(errors(HemicubeGrid::uniform(16), 3000)), fine = root_mean_square(errors(HemicubeGrid::uniform(256), 3000));
+  const double coarse = root_mean_square(errors(HemicubeGrid::uniform(16), 3000)),
+               fine = root_mean_square(errors(HemicubeGrid::uniform(256), 3000));
   EXPECT_NEAR(std::log(coarse / fine) / std::log(16), 1.5, 0.1);
 }
 
@@ -207,8 +215,8 @@ TEST(MaxCells, expected_errors_are_those_of_random_triangles) {
 
 TEST(MaxCells, lie_where_the_expected_error_is_least) {
   for (const int resolution : {32, 64, 128}) {
-    const double uniform = edge_error(HemicubeGrid::uniform(resolution)), equal = edge_error(HemicubeGrid::equal_factor(resolution)),
-                 best = edge_error(max_cells(resolution));
+    const double uniform = edge_error(HemicubeGrid::uniform(resolution)),
+                 equal = edge_error(HemicubeGrid::equal_factor(resolution)), best = edge_error(max_cells(resolution));
     EXPECT_NEAR(equal / uniform, 0.735, 0.002) << resolution;
     EXPECT_NEAR(best / uniform, 0.559, 0.002) << resolution;
   }
@@ -221,7 +229,9 @@ TEST(MaxCells, lie_where_the_expected_error_is_least) {
       boundaries[k] += move;
       boundaries[32 - k] -= move;
       const CellAxis moved(boundaries, grid.top.x.samples());
-      EXPECT_GT(edge_error(HemicubeGrid::of(grid.height, moved, moved, grid.side.x, grid.side.y)), edge_error(grid) * (1 - 1e-4)) << k;
+      EXPECT_GT(edge_error(HemicubeGrid::of(grid.height, moved, moved, grid.side.x, grid.side.y)),
+                edge_error(grid) * (1 - 1e-4))
+          << k;
     }
 }
 
@@ -264,14 +274,16 @@ TEST(Hemicube, rows_of_a_closed_room_with_bodies_sum_to_one) {
     const Views F = views(name, scene, room.patches, 32);
     EXPECT_EQ(F.counts.clamped, 0u);
     EXPECT_EQ(F.counts.lost, 0);
-    for (Index a = 0; a < F.K.rows(); ++a) EXPECT_NEAR(F.K.row(a).sum() / room.patches[static_cast<std::size_t>(a)].area, 1, 1e-12) << a;
+    for (Index a = 0; a < F.K.rows(); ++a)
+      EXPECT_NEAR(F.K.row(a).sum() / room.patches[static_cast<std::size_t>(a)].area, 1, 1e-12) << a;
   }
 }
 
-// docs/truths.md 2.9: small floor elements, a source 2 m above them, a blocker 1 m above.  The blocker's dark back is what they see of
-// it, or a side without elements.
+// docs/truths.md 2.9: small floor elements, a source 2 m above them, a blocker 1 m above.  The blocker's dark back is
+// what they see of it, or a side without elements.
 TEST(Hemicube, dark_backs_and_surfaces_without_elements_block) {
-  const std::vector<std::pair<double, double>> at{{0, 0}, {.6, .007557182366}, {.75, .017821902089}, {1, .029443796377}, {1.5, .032663265537}};
+  const std::vector<std::pair<double, double>> at{
+      {0, 0}, {.6, .007557182366}, {.75, .017821902089}, {1, .029443796377}, {1.5, .032663265537}};
   for (const bool fronts : {false, true}) {
     Room room;
     for (const auto& [x, factor] : at) room.wall({x - 5e-4, -5e-4, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}, 1);
@@ -314,7 +326,8 @@ TEST(Hemicube, sides_of_a_thin_plate_are_seen_from_their_own_sides) {
     }
 }
 
-// Elements on one half of a ceiling: the other half hides what is above it, and the facets beneath the elements do not hide them.
+// Elements on one half of a ceiling: the other half hides what is above it, and the facets beneath the elements do not
+// hide them.
 TEST(Hemicube, surfaces_that_elements_cover_in_part_are_seen_where_they_do_and_block_everywhere) {
   scene::SceneBuilder builder({"y"}, scene::Quantity::radiometric);
   const auto material = builder.add_material(fem::test::diffuse(0.5));
@@ -365,21 +378,23 @@ TEST(Hemicube, holds_at_any_scale_and_far_from_the_origin) {
       const auto scene = room.finish();
       const Views F = views(name, scene, room.patches, 64);
       for (Index a = 0; a < F.K.rows(); ++a)
-        EXPECT_NEAR(F.K.row(a).sum() / room.patches[static_cast<std::size_t>(a)].area, 1 - F.counts.lost, 1e-6) << name << " " << placing.scale;
+        EXPECT_NEAR(F.K.row(a).sum() / room.patches[static_cast<std::size_t>(a)].area, 1 - F.counts.lost, 1e-6)
+            << name << " " << placing.scale;
     }
 }
 
-// Near, huge, tiny, thin, edge-on, touching, coplanar, crossing, twice: finite and within bounds, whatever they are worth.
+// Near, huge, tiny, thin, edge-on, touching, coplanar, crossing, twice: finite and within bounds, whatever they are
+// worth.
 TEST(Hemicube, degenerate_elements_give_finite_factors_within_their_limits) {
   Room room;
   room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1);
-  room.wall({-50, -50, 1e-6}, {0, 100, 0}, {100, 0, 0}, 1);     // much larger than its distance
-  room.wall({1, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1);                // coplanar, touching
-  room.wall({.5, .5, 0}, {0, 0, 1}, {0, 1, 0}, 1);              // its foot goes through the first one's centre
-  room.wall({.2, .2, 1e-7}, {0, 1e-9, 0}, {1, 0, 0}, 1);        // a sliver
-  room.wall({.3, .3, 5e-7}, {0, 1e-8, 0}, {1e-8, 0, 0}, 1);     // tiny
-  room.wall({.1, .1, -.5}, {.8, 0, 0}, {0, .1, 1}, 1);          // crossing
-  room.wall({.1, .1, -.5}, {.8, 0, 0}, {0, .1, 1}, 1);          // and again
+  room.wall({-50, -50, 1e-6}, {0, 100, 0}, {100, 0, 0}, 1);  // much larger than its distance
+  room.wall({1, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1);             // coplanar, touching
+  room.wall({.5, .5, 0}, {0, 0, 1}, {0, 1, 0}, 1);           // its foot goes through the first one's centre
+  room.wall({.2, .2, 1e-7}, {0, 1e-9, 0}, {1, 0, 0}, 1);     // a sliver
+  room.wall({.3, .3, 5e-7}, {0, 1e-8, 0}, {1e-8, 0, 0}, 1);  // tiny
+  room.wall({.1, .1, -.5}, {.8, 0, 0}, {0, .1, 1}, 1);       // crossing
+  room.wall({.1, .1, -.5}, {.8, 0, 0}, {0, .1, 1}, 1);       // and again
   room.triangle({0, 0, 2}, {1, 1e-6, 2}, {2, 0, 2});
   const auto scene = room.finish();
   for (const char* name : {"hemicube", "hemicube-midpoint", "hemicube-max", "single-plane"})
@@ -387,7 +402,8 @@ TEST(Hemicube, degenerate_elements_give_finite_factors_within_their_limits) {
       const Views F = views(name, scene, room.patches, resolution);
       for (Index a = 0; a < F.K.rows(); ++a)
         for (Index b = 0; b < F.K.rows(); ++b) {
-          const double most = std::min(room.patches[static_cast<std::size_t>(a)].area, room.patches[static_cast<std::size_t>(b)].area);
+          const double most =
+              std::min(room.patches[static_cast<std::size_t>(a)].area, room.patches[static_cast<std::size_t>(b)].area);
           ASSERT_TRUE(std::isfinite(F.K(a, b)) && std::isfinite(F.bound(a, b))) << name << ": " << a << " " << b;
           EXPECT_GE(F.K(a, b), 0);
           EXPECT_LE(F.K(a, b), most);

@@ -21,7 +21,8 @@ class Sampled {
   Sampled& operator=(const Sampled&) = delete;
 
   FormFactorContext context(std::uint64_t samples, std::uint64_t seed = 1, double tolerance = 1e-3) const {
-    return {.scene = scene_, .patches = patches_, .rays = *rays_, .seed = seed, .tolerance = tolerance, .samples = samples};
+    return {
+        .scene = scene_, .patches = patches_, .rays = *rays_, .seed = seed, .tolerance = tolerance, .samples = samples};
   }
   Assembled by(const std::string& name, std::uint64_t samples, std::uint64_t seed = 1, double tolerance = 1e-3,
                unsigned threads = 2) const {

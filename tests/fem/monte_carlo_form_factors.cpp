@@ -17,9 +17,9 @@ using test::monte_carlo_methods;
 using test::Room;
 using test::Sampled;
 
-/// Limit of one comparison in standard errors.  Normal: beyond 5 with probability 6e-7.  The errors of area-to-area are Student's
-/// with 15 degrees of freedom over their own deviation: beyond 5 of that with probability 8e-5.  A test's family alpha is the
-/// number of its comparisons times these.
+/// Limit of one comparison in standard errors.  Normal: beyond 5 with probability 6e-7.  The errors of area-to-area are
+/// Student's with 15 degrees of freedom over their own deviation: beyond 5 of that with probability 8e-5.  A test's
+/// family alpha is the number of its comparisons times these.
 constexpr double limit = 5;
 
 std::uint64_t samples_for(const std::string& method, double share = 1) {
@@ -32,10 +32,11 @@ struct Known {
   Room (*room)(double scale);
   double truth;
 };
-const std::vector<Known> closed_forms{{"face to face", test::facing_squares, test::facing_truth},
-                                      {"common edge", test::squares_with_common_edge, test::edge_truth},
-                                      {"V6", [](double scale) { return test::screened_squares(0, scale); }, test::corner_screen_truth},
-                                      {"V7", [](double scale) { return test::screened_squares(.25, scale); }, test::centre_screen_truth}};
+const std::vector<Known> closed_forms{
+    {"face to face", test::facing_squares, test::facing_truth},
+    {"common edge", test::squares_with_common_edge, test::edge_truth},
+    {"V6", [](double scale) { return test::screened_squares(0, scale); }, test::corner_screen_truth},
+    {"V7", [](double scale) { return test::screened_squares(.25, scale); }, test::centre_screen_truth}};
 
 // 36 comparisons, a third of them Student's: alpha 1e-3.
 TEST(MonteCarloFormFactors, are_the_closed_forms_within_their_standard_errors_at_any_scale) {
@@ -52,8 +53,8 @@ TEST(MonteCarloFormFactors, are_the_closed_forms_within_their_standard_errors_at
     }
 }
 
-// docs/truths.md 2.11, V5, the inner cube off the centre.  On a line that crosses the inner cube two pairs are of one kind, and
-// so the error of their sum is up to sqrt(2) times that of independent ones.  9 comparisons: alpha 4e-4.
+// docs/truths.md 2.11, V5, the inner cube off the centre.  On a line that crosses the inner cube two pairs are of one
+// kind, and so the error of their sum is up to sqrt(2) times that of independent ones.  9 comparisons: alpha 4e-4.
 TEST(MonteCarloFormFactors, of_a_cube_in_a_cube_are_eight_ninths_one_ninth_and_one) {
   Room room;
   room.box({0, 0, 0}, {3, 3, 3}, 2);
@@ -67,7 +68,8 @@ TEST(MonteCarloFormFactors, of_a_cube_in_a_cube_are_eight_ninths_one_ninth_and_o
         sum[i >= 24][j >= 24] += found.K(i, j), squares[i >= 24][j >= 24] += std::pow(found.error(i, j), 2);
     const double outer = 54, inner = 6;
     const auto near = [&](int a, int b, double area, double truth, double pairs_twice) {
-      EXPECT_LT(std::abs(sum[a][b] / area - truth), limit * std::sqrt(2 * pairs_twice * squares[a][b]) / area) << method << a << b;
+      EXPECT_LT(std::abs(sum[a][b] / area - truth), limit * std::sqrt(2 * pairs_twice * squares[a][b]) / area)
+          << method << a << b;
     };
     near(0, 0, outer, 8.0 / 9, 2);  // both triangles: each error twice
     near(0, 1, outer, 1.0 / 9, 1);
@@ -75,9 +77,9 @@ TEST(MonteCarloFormFactors, of_a_cube_in_a_cube_are_eight_ninths_one_ninth_and_o
   }
 }
 
-// Each entry against `analytic` at tolerance 1e-6.  36 elements, 630 pairs.  Where at least 30 hits are expected standardised
-// errors are normal: none beyond 5 (7 of Student's), family alpha 2e-3, and the mean of their squares is 1 within 4.5 sqrt(2 /
-// n); alpha 1e-5.
+// Each entry against `analytic` at tolerance 1e-6.  36 elements, 630 pairs.  Where at least 30 hits are expected
+// standardised errors are normal: none beyond 5 (7 of Student's), family alpha 2e-3, and the mean of their squares is 1
+// within 4.5 sqrt(2 / n); alpha 1e-5.
 TEST(MonteCarloFormFactors, are_those_of_analytic_in_a_room_with_boxes_and_rows_sum_to_one) {
   const Sampled sampled(test::room_with_boxes(2));
   const Assembled exact = sampled.by("analytic", 0, 1, 1e-6);
@@ -106,9 +108,9 @@ TEST(MonteCarloFormFactors, are_those_of_analytic_in_a_room_with_boxes_and_rows_
   }
 }
 
-// V7 over 800 seeds, about 100 hits each.  Mean and mean square of z = (K - truth) / s, two-sided at 4.5 standard deviations
-// each: alpha 7e-6 a number, 4e-5 in all.  The fourth moment of z is 3, or 3.55 of Student's with 15 degrees of freedom; points
-// that are evenly spread take up to 4 % off the variance of hemisphere rays, and two hits added 2 %.
+// V7 over 800 seeds, about 100 hits each.  Mean and mean square of z = (K - truth) / s, two-sided at 4.5 standard
+// deviations each: alpha 7e-6 a number, 4e-5 in all.  The fourth moment of z is 3, or 3.55 of Student's with 15 degrees
+// of freedom; points that are evenly spread take up to 4 % off the variance of hemisphere rays, and two hits added 2 %.
 TEST(MonteCarloFormFactors, standardised_errors_are_standard_normal_in_mean_and_variance) {
   constexpr int seeds = 800;
   const Sampled sampled(test::screened_squares(.25));
@@ -169,7 +171,8 @@ TEST(MonteCarloFormFactors, are_the_same_in_any_blocks) {
       test::MatrixSink sink(patches.size());
       for (Index i = 0; i < n; i += rows)
         for (Index j = 0; j < n; j += columns)
-          method->exchange({patches, i, std::min(rows, n - i)}, {patches, j, std::min(columns, n - j)}, sink, run.get());
+          method->exchange({patches, i, std::min(rows, n - i)}, {patches, j, std::min(columns, n - j)}, sink,
+                           run.get());
       return sink.K;
     };
     const Eigen::MatrixXd whole = blocks_of(n, n);
@@ -194,8 +197,8 @@ TEST(MonteCarloFormFactors, of_areas_a_thousand_times_apart_agree_with_analytic)
   }
 }
 
-// Quads without parallel sides, triangles, and a pair that reaches through each other's planes.  3 methods x 10 pairs: alpha
-// 1e-3.
+// Quads without parallel sides, triangles, and a pair that reaches through each other's planes.  3 methods x 10 pairs:
+// alpha 1e-3.
 TEST(MonteCarloFormFactors, of_odd_shapes_agree_with_analytic) {
   Room room;
   room.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -203,7 +206,8 @@ TEST(MonteCarloFormFactors, of_odd_shapes_agree_with_analytic) {
   room.triangle({.2, .1, .8}, {.3, 1.2, 1.1}, {1.1, .3, 1.4});
   room.wall({1.5, 0, -.2}, {0, 0, 1}, {0, 1, 0}, 1);
   const geometry::Ring trapezoid{{-.5, 0, .1}, {-.5, 1.4, .1}, {-.4, .9, .8}, {-.4, .3, .8}};
-  room.patches.push_back(scene::make_patch(room.wall({-9, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1), scene::Side::front, trapezoid));
+  room.patches.push_back(
+      scene::make_patch(room.wall({-9, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1), scene::Side::front, trapezoid));
   room.patches.erase(room.patches.end() - 2);
   const Sampled sampled(room);
   const Assembled exact = sampled.by("analytic", 0, 1, 1e-7);
@@ -269,9 +273,9 @@ TEST(MonteCarloFormFactors, take_as_many_samples_as_the_tolerance_asks_for) {
   EXPECT_GT(most.pairs.rays, 8000u);
 }
 
-// A furnace: every surface of a closed room emits 1 and reflects half, so that B = 2 everywhere, which rows that sum to one keep:
-// an error dF of a row's sum is one of 2 dF in B at most.  Rows at 10^4 samples are off by less than 5 / 100 with the closed
-// forms' alpha.
+// A furnace: every surface of a closed room emits 1 and reflects half, so that B = 2 everywhere, which rows that sum to
+// one keep: an error dF of a row's sum is one of 2 dF in B at most.  Rows at 10^4 samples are off by less than 5 / 100
+// with the closed forms' alpha.
 TEST(MonteCarloFormFactors, heat_a_furnace_through_the_whole_method) {
   Room room;
   room.box({0, 0, 0}, {1, 1, 1}, 1, true, 0.5, 1.0);
@@ -303,9 +307,9 @@ TEST(MonteCarloFormFactors, stop_when_asked_to) {
 
 // The centroid of evenly spread points is that of the area: 256 x 256 of them, midpoint rule.
 TEST(UniformMap, is_area_preserving_on_triangles_and_on_quads_without_parallel_sides) {
-  for (const geometry::Ring& ring : {geometry::Ring{{0, 0, 0}, {3, 0, 0}, {0, 1, 1}},
-                                     geometry::Ring{{0, 0, 0}, {4, 0, 0}, {1.5, 1, 0}, {1, 1, 0}},
-                                     geometry::Ring{{0, 0, 0}, {1, -.2, 0}, {3, 3, 0}, {-.5, .6, 0}}}) {
+  for (const geometry::Ring& ring :
+       {geometry::Ring{{0, 0, 0}, {3, 0, 0}, {0, 1, 1}}, geometry::Ring{{0, 0, 0}, {4, 0, 0}, {1.5, 1, 0}, {1, 1, 0}},
+        geometry::Ring{{0, 0, 0}, {1, -.2, 0}, {3, 3, 0}, {-.5, .6, 0}}}) {
     const UniformMap map(ring);
     constexpr int n = 256;
     Vec3 mean = Vec3::Zero();
@@ -348,7 +352,8 @@ TEST(SeenElement, directions_are_uniform_in_solid_angle) {
       }
     EXPECT_NEAR(seen.solid_angle() * sum / (n * n) / pi, point_to_polygon(eye, Vec3::UnitZ(), ring), 2e-4);
   }
-  EXPECT_EQ(SeenElement({0, 0, 2}, geometry::Ring{{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}).solid_angle(), 0);  // from behind
+  EXPECT_EQ(SeenElement({0, 0, 2}, geometry::Ring{{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}).solid_angle(),
+            0);  // from behind
 }
 
 TEST(TwoViews, are_joined_by_their_rows_weights_where_there_are_any) {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "fem/assembly.h"
-#include "fem/operator/dense_symmetric.h"
 #include "fem/form_factor/point_to_polygon.h"
+#include "fem/operator/dense_symmetric.h"
 #include "mesh/uniform.h"
 #include "tests/fem/rooms.h"
 
@@ -20,7 +20,8 @@ TEST(NeighbourError, a_linear_field_is_continued_linearly) {
   const scene::Scene scene = builder.finish();
   RadiositySolution solution(mesh::quartered(mesh::uniform(scene, 1.0)), 0.5);
   const auto field = [](const Vec3& x) { return Spectrum(7 + 2 * x.x() - 3 * x.y()); };
-  for (const scene::SurfacePatch& patch : solution.mesh.patches()) solution.irradiance.push_back(field(patch.centroid()));
+  for (const scene::SurfacePatch& patch : solution.mesh.patches())
+    solution.irradiance.push_back(field(patch.centroid()));
   for (std::size_t j = 0; j < solution.irradiance.size(); ++j) {
     const scene::SurfacePatch& patch = solution.mesh.patches()[j];
     for (const Vec3& corner : patch.ring())
@@ -28,7 +29,8 @@ TEST(NeighbourError, a_linear_field_is_continued_linearly) {
   }
 }
 
-/// The height at which a point of the floor sees a rectangle of the wall x = 0: the mean over it, weighted by what it sends there.
+/// The height at which a point of the floor sees a rectangle of the wall x = 0: the mean over it, weighted by what it
+/// sends there.
 double seen_height(const Vec3& from, const scene::SurfacePatch& element) {
   constexpr int n = 64;
   const Vec3 corner = element.corner[0], u = (element.corner[1] - corner) / n, v = (element.corner[3] - corner) / n;
@@ -36,15 +38,17 @@ double seen_height(const Vec3& from, const scene::SurfacePatch& element) {
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b) {
       const Vec3 p = corner + a * u + b * v;
-      const double factor = point_to_polygon(from, Vec3::UnitZ(), std::array{p, Vec3(p + u), Vec3(p + u + v), Vec3(p + v)});
+      const double factor =
+          point_to_polygon(from, Vec3::UnitZ(), std::array{p, Vec3(p + u), Vec3(p + u + v), Vec3(p + v)});
       sum += factor * (p + (u + v) / 2).z();
       weight += factor;
     }
   return sum / weight;
 }
 
-// A floor beside a wall whose irradiance rises with height, 2 + 3 z: the floor's elements see the wall's low end more than its
-// constants say (16 parts of a neighbour find where it is seen to some 6 %).  The wall's do not mind the floor, which is lit evenly; nor does anything mind a wall that is.
+// A floor beside a wall whose irradiance rises with height, 2 + 3 z: the floor's elements see the wall's low end more
+// than its constants say (16 parts of a neighbour find where it is seen to some 6 %).  The wall's do not mind the
+// floor, which is lit evenly; nor does anything mind a wall that is.
 TEST(NeighbourError, is_what_the_near_end_of_a_neighbour_makes_of_its_gradient) {
   test::Room room;
   room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .5);

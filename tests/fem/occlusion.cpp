@@ -25,14 +25,15 @@ Room plates_with_screen(int n, const Vec3& screen_corner) {
 struct Sum {
   double value, error;
 };
-/// F from the first half of the elements to the others: the sum and its standard error, errors of entries being independent.
+/// F from the first half of the elements to the others: the sum and its standard error, errors of entries being
+/// independent.
 Sum exchange_between_halves(const test::Assembled& F) {
   const Index n = F.K.rows() / 2;
   return {F.K.topRightCorner(n, n).sum(), std::sqrt(F.error.topRightCorner(n, n).squaredNorm())};
 }
 
-// docs/truths.md 2.11, V6 and V7, for one pair and for 256; four two-sided tests, alpha 1e-4 together: 4.1 standard errors.
-// (The standard error is cautious, so that the true level is lower.)
+// docs/truths.md 2.11, V6 and V7, for one pair and for 256; four two-sided tests, alpha 1e-4 together: 4.1 standard
+// errors. (The standard error is cautious, so that the true level is lower.)
 TEST(Occlusion, form_factors_past_a_screen_agree_with_the_exact_ones) {
   for (int n : {1, 4})
     for (const auto& [corner, exact] :
@@ -47,8 +48,8 @@ TEST(Occlusion, form_factors_past_a_screen_agree_with_the_exact_ones) {
     }
 }
 
-// docs/truths.md 2.11, V5: cubes of sides 3 and 1, F(out,out) = 8/9, F(out,in) = 1/9, F(in,out) = 1.  The inner cube's share
-// needs no rays.
+// docs/truths.md 2.11, V5: cubes of sides 3 and 1, F(out,out) = 8/9, F(out,in) = 1/9, F(in,out) = 1.  The inner cube's
+// share needs no rays.
 TEST(Occlusion, concentric_cubes_see_each_other_as_any_convex_bodies_do) {
   Room room;
   room.box({-1.5, -1.5, -1.5}, {3, 3, 3}, 4);
@@ -66,8 +67,8 @@ TEST(Occlusion, concentric_cubes_see_each_other_as_any_convex_bodies_do) {
     EXPECT_NEAR(F.K.row(i).sum() / .25, 1.0, 1e-5) << "the inner cube sees no noise";
 }
 
-// A screen in the middle of the room between two of its walls: each pair's deviation from a reference of 64 times as many
-// rays, in standard errors.  Cautious: stratification gains, and agreeing rays are not taken for certainty.
+// A screen in the middle of the room between two of its walls: each pair's deviation from a reference of 64 times as
+// many rays, in standard errors.  Cautious: stratification gains, and agreeing rays are not taken for certainty.
 TEST(Occlusion, standard_errors_of_visibility_are_honest) {
   Room room = plates_with_screen(6, {.25, .25, .5});
   const auto scene = room.finish();

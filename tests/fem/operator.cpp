@@ -77,9 +77,9 @@ TEST(DenseSymmetric, knows_the_variances_of_its_product) {
   EXPECT_LE((out - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-// Two products with the same realised errors: the spread of 4000 products is what `apply_variances` says.  A sample variance
-// of m normal-like numbers has a relative standard deviation of sqrt(2 / m) = 2.2 % (less for uniform ones); 5 of
-// these.
+// Two products with the same realised errors: the spread of 4000 products is what `apply_variances` says.  A sample
+// variance of m normal-like numbers has a relative standard deviation of sqrt(2 / m) = 2.2 % (less for uniform ones); 5
+// of these.
 TEST(DenseSymmetric, has_the_variance_that_independent_errors_make) {
   core::LocalRun run(1, 1);
   const Index n = 40, trials = 4000;

@@ -27,7 +27,8 @@ scene::Scene cube(double reflectance, double size = 1.0, const Vec3& low = Vec3:
   return scene;
 }
 
-// docs/truths.md 2.6: exact discrete solutions, so that nothing is left but quadrature, at 1e-7, and the solver, at 1e-10.
+// docs/truths.md 2.6: exact discrete solutions, so that nothing is left but quadrature, at 1e-7, and the solver, at
+// 1e-10.
 TEST(Radiosity, of_the_cube_is_the_exact_discrete_solution) {
   struct Row {
     double rho;
@@ -53,7 +54,8 @@ TEST(Radiosity, of_the_cube_is_the_exact_discrete_solution) {
   }
 }
 
-// The sum over j of F_ij is 1 + d_i with |d_i| <= d, so B - 1 = (I - rho F)^-1 rho d is at most rho d / (1 - rho (1 + d)).
+// The sum over j of F_ij is 1 + d_i with |d_i| <= d, so B - 1 = (I - rho F)^-1 rho d is at most rho d / (1 - rho (1 +
+// d)).
 TEST(Radiosity, of_a_furnace_is_one_as_far_as_rows_sum_to_one) {
   for (double rho : {.2, .5, .8, .95}) {
     Room room;
@@ -236,9 +238,9 @@ void expect_same_radiosity(const RadiositySolution& a, const RadiositySolution& 
     for (int c = 0; c < 2; ++c) EXPECT_NEAR(a.radiosity[i][c] / b.radiosity[i][c], 1.0, relative) << i;
 }
 
-// The same rays, so the same visibility but where one grazes an edge within rounding; none does for this seed.  Adaptive
-// quadrature may break a tie between equal errors differently, which moves an entry within its tolerance of 1e-3: 1e-6 of the
-// radiosity here.
+// The same rays, so the same visibility but where one grazes an edge within rounding; none does for this seed.
+// Adaptive quadrature may break a tie between equal errors differently, which moves an entry within its tolerance of
+// 1e-3: 1e-6 of the radiosity here.
 TEST(Radiosity, does_not_depend_on_the_unit_the_place_or_the_orientation) {
   const auto plain = solve(furnished([](const Vec3& p) { return p; }), {.element_size = .25, .tolerance = 1e-3});
   EXPECT_GT(plain.pairs.sampled, 100u);
@@ -283,8 +285,8 @@ TEST(Radiosity, balances_its_energy_with_very_unequal_elements) {
   EXPECT_LT(std::abs(e.residual[0]), 1e-7 * e.emitted[0]);
 }
 
-// What a black back swallows is found by rays and by row sums alike: 4.1 standard errors, alpha 1e-4 for both; quadrature and
-// visibility noise in the row sums add their part.
+// What a black back swallows is found by rays and by row sums alike: 4.1 standard errors, alpha 1e-4 for both;
+// quadrature and visibility noise in the row sums add their part.
 TEST(Radiosity, finds_what_escapes_and_what_falls_on_backs) {
   Room room;
   room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .5, 1);
@@ -361,8 +363,8 @@ TEST(Radiosity, has_elements_by_default_that_resolve_the_scene) {
   EXPECT_GT(of_floor, 400u);
 }
 
-// 12 bytes a pair and three quarters of one; both views of a pair, 24 bytes, for methods that go by rows; counts, 4, for lines; at most
-// N / drop_below kept pairs.
+// 12 bytes a pair and three quarters of one; both views of a pair, 24 bytes, for methods that go by rows; counts, 4,
+// for lines; at most N / drop_below kept pairs.
 TEST(Radiosity, is_forecast_with_what_its_method_needs_on_the_way) {
   const auto scene = cube(.5);
   core::LocalRun run(1, 1);
@@ -385,7 +387,8 @@ TEST(Radiosity, is_forecast_with_what_its_method_needs_on_the_way) {
   EXPECT_NO_THROW(forecast(scene, settings, run.get()));
   settings.form_factors = "hemicube";
   EXPECT_THROW(forecast(scene, settings, run.get()), core::InputError);
-  EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError) << "before the work, not when memory is gone";
+  EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError)
+      << "before the work, not when memory is gone";
 }
 
 TEST(Radiosity, is_forecast_within_its_element_count) {

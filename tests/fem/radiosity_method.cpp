@@ -90,8 +90,8 @@ double overlap(const scene::SurfacePatch& element, double x0, double x1, double 
          std::max(0.0, std::min(high.y(), y1) - std::max(low.y(), y0));
 }
 
-// A patch across several elements, most of them cut; the same patch of a solution on elements of a quarter of the size tells what
-// cutting costs.
+// A patch across several elements, most of them cut; the same patch of a solution on elements of a quarter of the size
+// tells what cutting costs.
 TEST(RadiosityMethod, of_patches_that_are_no_elements_is_the_mean_of_what_tiles_them) {
   const auto scene = plates();
   const auto s = solve(scene, {.element_size = .25});

@@ -44,7 +44,8 @@ class Room {
     add_grid(patches, id, corner, u, v, n);
     return id;
   }
-  scene::SurfaceId triangle(const Vec3& a, const Vec3& b, const Vec3& c, double reflectance = 0.0, double exitance = 0.0) {
+  scene::SurfaceId triangle(const Vec3& a, const Vec3& b, const Vec3& c, double reflectance = 0.0,
+                            double exitance = 0.0) {
     const geometry::Ring ring{a, b, c};
     const auto id = builder_.add_polygon("triangle", {ring, {}}, builder_.add_material(diffuse(reflectance, exitance)));
     patches.push_back(scene::make_patch(id, scene::Side::front, ring));

@@ -103,10 +103,12 @@ TEST(RowErrors, of_a_method_that_cannot_go_again_are_reported_as_they_are) {
   const Room room = room_with_bodies();
   test::LastEntrySink sink(room.patches.size());
   core::LocalRun run(1, 2);
-  const ToleranceReport report = assemble_to_tolerance([](double) { return std::make_unique<Told>(); }, 1e-6, room.patches, sink, run);
+  const ToleranceReport report =
+      assemble_to_tolerance([](double) { return std::make_unique<Told>(); }, 1e-6, room.patches, sink, run);
   EXPECT_EQ(report.passes, 1);
   EXPECT_FALSE(report.met);
-  EXPECT_NEAR(report.row_errors[0], 1.959963984540054 * 0.01 * static_cast<double>(room.patches.size() - 1) / room.patches[0].area, 1e-12);
+  EXPECT_NEAR(report.row_errors[0],
+              1.959963984540054 * 0.01 * static_cast<double>(room.patches.size() - 1) / room.patches[0].area, 1e-12);
 }
 
 }  // namespace

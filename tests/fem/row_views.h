@@ -34,8 +34,8 @@ inline Views views(const FormFactorMethod& method, std::span<const scene::Surfac
   const PairCounts counts = method.exchange(all, all, sink, run.get());
   return {sink.K, sink.bound, counts};
 }
-inline Views views(const std::string& name, const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int resolution,
-                   std::uint64_t seed = 1) {
+inline Views views(const std::string& name, const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                   int resolution, std::uint64_t seed = 1) {
   const auto caster = raycast::make_ray_caster("brute", scene);
   FormFactorContext context{scene, patches, *caster, seed};
   context.resolution = resolution;
@@ -51,7 +51,8 @@ inline Room room_with_bodies(int n, int m) {
   return room;
 }
 
-/// Ten triangles anywhere in a cube of side 2, with corners within `size` of their middles along each axis; great ones cross.
+/// Ten triangles anywhere in a cube of side 2, with corners within `size` of their middles along each axis; great ones
+/// cross.
 inline Room ten_triangles(std::uint32_t stream, double size) {
   core::RandomNumbers u(77, stream, 0);
   const auto vector = [&u] {
@@ -60,7 +61,8 @@ inline Room ten_triangles(std::uint32_t stream, double size) {
   };
   Room room;
   for (int k = 0; k < 10; ++k) {
-    const Vec3 centre = vector(), a = centre + size * vector(), b = centre + size * vector(), c = centre + size * vector();
+    const Vec3 centre = vector(), a = centre + size * vector(), b = centre + size * vector(),
+               c = centre + size * vector();
     room.triangle(a, b, c);
   }
   return room;
@@ -130,7 +132,9 @@ inline SceneCoverage coverage(const std::vector<SolvedScene>& scenes, const std:
         if (a == b) continue;
         const double exact = solved.exact.K(a, b), rounding = 1e-12 + solved.exact.error(a, b);
         found.views.add(seen.K(a, b), seen.bound(a, b), exact, rounding);
-        if (a < b) found.joined.add(joined.K(a, b), joined.error(a, b), exact, rounding + 1e-7 * exact);  // views are kept as floats
+        if (a < b)
+          found.joined.add(joined.K(a, b), joined.error(a, b), exact,
+                           rounding + 1e-7 * exact);  // views are kept as floats
       }
   }
   return found;

@@ -31,7 +31,9 @@ RadiositySettings settings_of(double size) {
 scene::Scene cube(const Thermal& floor, const Thermal& rest) {
   SceneBuilder builder({"W"}, scene::Quantity::radiometric);
   const auto of_floor = grey(builder, floor), of_rest = grey(builder, rest);
-  const auto wall = [&](const Vec3& corner, const Vec3& u, const Vec3& v, scene::MaterialId m) { builder.add_polygon("wall", test::parallelogram(corner, u, v), m); };
+  const auto wall = [&](const Vec3& corner, const Vec3& u, const Vec3& v, scene::MaterialId m) {
+    builder.add_polygon("wall", test::parallelogram(corner, u, v), m);
+  };
   const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   wall(Vec3::Zero(), x, y, of_floor);
   wall(z, y, x, of_rest);
@@ -71,12 +73,14 @@ TEST(ThermalExchange, an_open_body_at_the_temperature_of_the_environment_exchang
   }
 }
 
-// The floor's quarters are alike by symmetry: the flux that is found, given in place of the temperature, gives that back.
+// The floor's quarters are alike by symmetry: the flux that is found, given in place of the temperature, gives that
+// back.
 TEST(ThermalExchange, a_heat_flux_gives_back_the_temperature_that_it_was_found_from) {
   const Thermal cold{0.8, 300.0};
   const ThermalExchange found = solve(cube({0.6, 700.0}, cold), 0.5);
   EXPECT_GT(found.surfaces[0].heat_flux, 0);
-  EXPECT_NEAR(found.emitted / (found.surfaces[0].heat_flux * found.surfaces[0].area), 0, 1e-4);  // what leaves the floor arrives
+  EXPECT_NEAR(found.emitted / (found.surfaces[0].heat_flux * found.surfaces[0].area), 0,
+              1e-4);  // what leaves the floor arrives
   const ThermalExchange back = solve(cube({0.6, std::nullopt, found.surfaces[0].heat_flux}, cold), 0.5);
   EXPECT_TRUE(back.surfaces[0].flux_given);
   EXPECT_NEAR(back.surfaces[0].temperature, 700, 1e-4);
@@ -99,12 +103,13 @@ scene::Scene cavity(double depth, double emissivity, int sides, double temperatu
   return builder.finish();
 }
 
-// docs/truths.md 2.7: effective emissivity of the aperture of isothermal cavities; 24 sides in place of a circle and constants on elements
-// are worth about half a per cent.
+// docs/truths.md 2.7: effective emissivity of the aperture of isothermal cavities; 24 sides in place of a circle and
+// constants on elements are worth about half a per cent.
 TEST(ThermalExchange, cavities_have_their_known_effective_emissivities) {
   constexpr int sides = 24;
   const double aperture = 0.5 * sides * std::sin(2 * pi / sides), temperature = 1000;
-  for (const auto& [depth, emissivity, effective] : {std::tuple(1.0, 0.5, 0.7423863490), {1.0, 0.9, 0.9618701681}, {2.0, 0.5, 0.8082990303}}) {
+  for (const auto& [depth, emissivity, effective] :
+       {std::tuple(1.0, 0.5, 0.7423863490), {1.0, 0.9, 0.9618701681}, {2.0, 0.5, 0.8082990303}}) {
     const ThermalExchange found = solve(cavity(depth, emissivity, sides, temperature), 0.3);
     const double black = scene::stefan_boltzmann * std::pow(temperature, 4) * aperture;
     EXPECT_NEAR(found.emitted / black, effective, 0.005) << depth << " " << emissivity;
@@ -117,12 +122,14 @@ TEST(ThermalExchange, two_halves_of_a_sphere_exchange_as_the_closed_form_says) {
   SceneBuilder builder({"W"}, scene::Quantity::radiometric);
   const auto hot = grey(builder, {0.7, 800.0}), cold = grey(builder, {0.4, 400.0});
   std::vector<geometry::TriangleCorners> above, below;
-  for (const auto& t : interflect::test::icosphere(2, 1, true)) ((t[0] + t[1] + t[2]).z() > 0 ? above : below).push_back(t);
+  for (const auto& t : interflect::test::icosphere(2, 1, true))
+    ((t[0] + t[1] + t[2]).z() > 0 ? above : below).push_back(t);
   builder.add_facets("hot", above, hot);
   builder.add_facets("cold", below, cold);
   const scene::Scene scene = builder.finish();
   const double a = scene.area({0}) / (scene.area({0}) + scene.area({1}));
-  const double hot_black = scene::stefan_boltzmann * std::pow(800.0, 4), cold_black = scene::stefan_boltzmann * std::pow(400.0, 4);
+  const double hot_black = scene::stefan_boltzmann * std::pow(800.0, 4),
+               cold_black = scene::stefan_boltzmann * std::pow(400.0, 4);
   const double H = (a * 0.7 * hot_black + (1 - a) * 0.4 * cold_black) / (1 - a * 0.3 - (1 - a) * 0.6);
   const ThermalExchange found = solve(scene, 0.4);
   EXPECT_NEAR(found.surfaces[0].heat_flux / (0.7 * (hot_black - H)), 1, 0.01);

@@ -15,7 +15,8 @@ using test::rectangle;
 
 constexpr double rounding = 1e-12;
 
-/// Hidden area of a ring seen from the origin; checks that hidden and seen make up the whole, and that each ring keeps its orientation.
+/// Hidden area of a ring seen from the origin; checks that hidden and seen make up the whole, and that each ring keeps
+/// its orientation.
 double hidden_area(const Ring& ring, std::span<const ConvexBlocker> blockers) {
   HiddenPart part;
   part.start(ring);
@@ -34,7 +35,9 @@ double hidden_area(const Ring& ring, std::span<const ConvexBlocker> blockers) {
 }
 
 std::vector<Ring> cube_faces(const Vec3& low, const Vec3& high) {
-  const auto at = [&](int i, int j, int k) { return Vec3(i ? high.x() : low.x(), j ? high.y() : low.y(), k ? high.z() : low.z()); };
+  const auto at = [&](int i, int j, int k) {
+    return Vec3(i ? high.x() : low.x(), j ? high.y() : low.y(), k ? high.z() : low.z());
+  };
   return {{at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0)}, {at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)},
           {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)}, {at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0)},
           {at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0)}, {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}};
@@ -59,10 +62,12 @@ TEST(HiddenPart, what_lies_before_or_beside_or_behind_the_eye_hides_nothing) {
   const Ring target = rectangle(-1, -1, 1, 1, 1);
   for (const double z : {1.0, 2.0, -0.5, 0.0})
     EXPECT_EQ(hidden_area(target, std::vector{ConvexBlocker::polygon(rectangle(-0.3, -0.3, 0.3, 0.3, z))}), 0) << z;
-  EXPECT_EQ(hidden_area(target, std::vector{ConvexBlocker::polygon(Ring{{0, 0, 0.2}, {0, 0.1, 0.2}, {0, 0.1, 0.9}})}), 0);
+  EXPECT_EQ(hidden_area(target, std::vector{ConvexBlocker::polygon(Ring{{0, 0, 0.2}, {0, 0.1, 0.2}, {0, 0.1, 0.9}})}),
+            0);
 }
 
-// A wall x in [0, 2] at z = 0.5 + x reaches through the plane of the target at x = 0.5: hidden is what lies beyond it, 0 < x < 0.5.
+// A wall x in [0, 2] at z = 0.5 + x reaches through the plane of the target at x = 0.5: hidden is what lies beyond it,
+// 0 < x < 0.5.
 TEST(HiddenPart, a_blocker_that_crosses_the_polygon_hides_only_beyond_itself) {
   const std::vector wall{ConvexBlocker::polygon(Ring{{0, -9, 0.5}, {2, -9, 2.5}, {2, 9, 2.5}, {0, 9, 0.5}})};
   EXPECT_NEAR(hidden_area(rectangle(-1, -1, 1, 1, 1), wall), 0.5 * 2, 1e-14);
@@ -77,7 +82,8 @@ TEST(HiddenPart, a_blocker_across_the_eyes_horizon_is_no_special_case) {
 TEST(HiddenPart, a_solid_hides_what_its_faces_hide_together) {
   Dice dice(11);
   for (int k = 0; k < 200; ++k) {
-    const Vec3 low(dice.in(-0.4, 0.1), dice.in(-0.4, 0.1), dice.in(0.2, 0.5)), high = low + Vec3(dice.in(0.1, 0.4), dice.in(0.1, 0.4), dice.in(0.1, 0.4));
+    const Vec3 low(dice.in(-0.4, 0.1), dice.in(-0.4, 0.1), dice.in(0.2, 0.5)),
+        high = low + Vec3(dice.in(0.1, 0.4), dice.in(0.1, 0.4), dice.in(0.1, 0.4));
     const auto faces = cube_faces(low, high);
     std::vector<ConvexBlocker> flat;
     for (const Ring& face : faces) flat.push_back(ConvexBlocker::polygon(face));
@@ -91,7 +97,8 @@ TEST(HiddenPart, a_solid_hides_what_its_faces_hide_together) {
 TEST(HiddenPart, a_solid_through_the_polygon_hides_what_its_faces_hide) {
   Dice dice(12);
   for (int k = 0; k < 200; ++k) {
-    const Vec3 low(dice.in(-0.4, 0.1), dice.in(-0.4, 0.1), dice.in(0.2, 0.9)), high = low + Vec3(dice.in(0.1, 0.4), dice.in(0.1, 0.4), 0.9);
+    const Vec3 low(dice.in(-0.4, 0.1), dice.in(-0.4, 0.1), dice.in(0.2, 0.9)),
+        high = low + Vec3(dice.in(0.1, 0.4), dice.in(0.1, 0.4), 0.9);
     const auto faces = cube_faces(low, high);
     std::vector<ConvexBlocker> flat;
     for (const Ring& face : faces) flat.push_back(ConvexBlocker::polygon(face));
@@ -114,8 +121,10 @@ TEST(ConvexBlockers, of_a_cut_up_box_are_one_solid_and_of_an_inside_out_one_are_
 
 TEST(ConvexBlockers, join_triangles_only_where_they_stay_convex_and_flat) {
   const Ring ell{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
-  const std::vector<BlockingTriangle> triangles{{{ell[0], ell[1], ell[2]}, false}, {{ell[0], ell[2], ell[3]}, false},
-                                                {{ell[0], ell[3], ell[4]}, false}, {{ell[0], ell[4], ell[5]}, false}};
+  const std::vector<BlockingTriangle> triangles{{{ell[0], ell[1], ell[2]}, false},
+                                                {{ell[0], ell[2], ell[3]}, false},
+                                                {{ell[0], ell[3], ell[4]}, false},
+                                                {{ell[0], ell[4], ell[5]}, false}};
   const auto blockers = convex_blockers(triangles, 1e-12);
   EXPECT_EQ(blockers.size(), 2u);
   double area = 0;
@@ -157,9 +166,10 @@ TEST(HiddenPart, behind_overlapping_touching_and_duplicate_triangles_is_the_exac
         return Vec3(z * dice.in(-1.2, 1.2), z * dice.in(-1.2, 1.2), z);
       };
       Ring ring{corner(), corner(), corner()};
-      if (i > 0 && i % 3 == 0) ring[0] = triangles.back()[0], ring[1] = triangles.back()[1];           // a common edge
-      if (i > 0 && i % 4 == 0) ring = {0.5 * triangles[0][0], 0.5 * triangles[0][1], ring[2]};         // hides the same edge, halfway
-      if (i > 0 && i % 5 == 0) ring = triangles[1];                                                    // twice
+      if (i > 0 && i % 3 == 0) ring[0] = triangles.back()[0], ring[1] = triangles.back()[1];  // a common edge
+      if (i > 0 && i % 4 == 0)
+        ring = {0.5 * triangles[0][0], 0.5 * triangles[0][1], ring[2]};  // hides the same edge, halfway
+      if (i > 0 && i % 5 == 0) ring = triangles[1];                      // twice
       triangles.push_back(ring);
     }
     ExactSet shadows;

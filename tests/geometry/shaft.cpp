@@ -79,7 +79,8 @@ TEST(Shaft, never_excludes_a_triangle_that_blocks) {
 }
 
 TEST(Shaft, is_the_convex_hull_for_patches_that_face_each_other) {
-  // Two unit squares a metre apart: the hull is the unit cube, and tests by planes are exact for small triangles beside it.
+  // Two unit squares a metre apart: the hull is the unit cube, and tests by planes are exact for small triangles beside
+  // it.
   Ring top = rectangle(0, 0, 1, 1, 1);
   std::reverse(top.begin(), top.end());
   const Shaft shaft(rectangle(0, 0, 1, 1), top);
@@ -151,8 +152,8 @@ TEST(Shaft, holds_far_from_the_origin) {
   EXPECT_FALSE(shaft.may_block(far + Vec3(1.5, 0.5, 0.5), far + Vec3(1.75, 0.5, 0.5), far + Vec3(1.5, 0.75, 0.5)));
 }
 
-// Two patches and the wall that one of them lies on, brought back from coordinates that are 1e-9 apart: the wall stands out of
-// the patch's plane by that, and blocks nothing to whoever knows of it.
+// Two patches and the wall that one of them lies on, brought back from coordinates that are 1e-9 apart: the wall stands
+// out of the patch's plane by that, and blocks nothing to whoever knows of it.
 TEST(Shaft, forgives_as_much_rounding_as_it_is_told_of) {
   const Ring patch = rectangle(0.4, 0.4, 0.6, 0.6), wall = rectangle(0, 0, 1, 1, 1e-9);
   Ring top = rectangle(0, 0, 1, 1, 1);

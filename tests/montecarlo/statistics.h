@@ -43,7 +43,8 @@ inline constexpr double alpha = 1e-3;
 /// Every channel of every answer within the critical number of its own standard errors.  A standard error above
 /// `largest_error` (relative to the truth) would prove nothing, and fails.
 inline void expect_agreement(const scene::Scene& scene, const std::vector<Question>& questions,
-                             const montecarlo::PathTracerSettings& settings, double largest_error, std::uint64_t seed = 1) {
+                             const montecarlo::PathTracerSettings& settings, double largest_error,
+                             std::uint64_t seed = 1) {
   std::vector<measure::Measurement> asked;
   for (const Question& question : questions) asked.push_back(question.asked);
   core::LocalRun run(seed);

@@ -16,7 +16,8 @@ TEST(SensorSummary, statistics_are_those_of_the_weighted_values) {
   scene.channels = {"y"};
   scene.weights[0] = 2;
   const measure::PointIrradiance nowhere{Vec3::Zero(), Vec3::UnitZ(), {}};
-  const std::vector<measure::SensorPoint> points{{"desk", 0, nowhere}, {"wall", 0, nowhere}, {"desk", 1, nowhere}, {"desk", 2, nowhere}};
+  const std::vector<measure::SensorPoint> points{
+      {"desk", 0, nowhere}, {"wall", 0, nowhere}, {"desk", 1, nowhere}, {"desk", 2, nowhere}};
   const std::vector<Estimate> values{estimate(10, 1, 0.3), estimate(7, 0, 0), estimate(30, 2, 0.4), estimate(20, 3, 0)};
   const auto summaries = summarise(scene, points, values);
   ASSERT_EQ(summaries.size(), 2u);

@@ -62,8 +62,8 @@ TEST(AllHits, tell_the_order_of_surfaces_1e_minus_9_apart) {
   }
 }
 
-// 60 triangles in a unit cube; the first of all hits is the closest, distances rise, and both casters and the default meet the
-// same facets but for rays that pass an edge within single precision.
+// 60 triangles in a unit cube; the first of all hits is the closest, distances rise, and both casters and the default
+// meet the same facets but for rays that pass an edge within single precision.
 TEST(AllHits, begin_with_the_closest_and_are_the_same_for_every_caster) {
   /// What a caster that does not know better does: one closest hit after the other.
   class Plain final : public RayCaster {

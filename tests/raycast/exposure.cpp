@@ -9,7 +9,9 @@ namespace {
 
 using scene::SceneBuilder;
 
-scene::MaterialId grey(SceneBuilder& builder) { return builder.add_material({"grey", Spectrum(0.5), Spectrum(1.0), scene::Sides::front}); }
+scene::MaterialId grey(SceneBuilder& builder) {
+  return builder.add_material({"grey", Spectrum(0.5), Spectrum(1.0), scene::Sides::front});
+}
 
 TEST(Exposure, a_room_seen_from_inside_shows_no_backs) {
   SceneBuilder builder({"y"});

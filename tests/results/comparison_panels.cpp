@@ -61,10 +61,14 @@ TEST(ComparisonPanels, noise_of_single_pixels_is_averaged_and_darkness_agrees) {
 TEST(ComparisonPanels, what_noise_may_explain_stays_white) {
   // 36 pixels of a standard error s each: that of their mean is s / 6, and 2 is more than three of them below s = 4.
   const Colour white = colour_of(ColourMap::blue_white_red, 0.5), half = colour_of(ColourMap::blue_white_red, 0.75);
-  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(3.9F, 0), 0.1).difference, 0, 0), half);
-  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(4.1F, 0), 0.1).difference, 0, 0), white);
+  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(3.9F, 0), 0.1).difference, 0, 0),
+            half);
+  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(4.1F, 0), 0.1).difference, 0, 0),
+            white);
   const auto unknown = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(unknown, unknown), 0.1).difference, 0, 0), white);
+  EXPECT_EQ(
+      colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(unknown, unknown), 0.1).difference, 0, 0),
+      white);
 }
 
 TEST(ComparisonPanels, both_pictures_have_the_exposure_of_the_traced_one) {

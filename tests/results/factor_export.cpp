@@ -20,7 +20,8 @@ namespace {
 
 std::uint64_t number_at(const std::string& bytes, std::size_t at, int size) {
   std::uint64_t value = 0;
-  for (int k = size; k-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes.at(at + static_cast<std::size_t>(k)));
+  for (int k = size; k-- > 0;)
+    value = value << 8 | static_cast<unsigned char>(bytes.at(at + static_cast<std::size_t>(k)));
   return value;
 }
 
@@ -96,10 +97,11 @@ TEST(FactorExport, npz_holds_every_array_to_the_last_bit) {
     const std::vector<std::string> names{"F", "error", "area", "normal", "centroid", "row_sum", "row_error", "name"};
     for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(arrays[k].first, names[k] + ".npy");
     const std::string size = std::to_string(n);
-    EXPECT_TRUE(arrays[0].second.header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (" + size + ", " +
-                                                    size + "), }"))
+    EXPECT_TRUE(arrays[0].second.header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (" + size +
+                                                    ", " + size + "), }"))
         << arrays[0].second.header;
-    EXPECT_TRUE(arrays[2].second.header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (" + size + ",), }"));
+    EXPECT_TRUE(
+        arrays[2].second.header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (" + size + ",), }"));
     EXPECT_EQ(doubles(arrays[0].second.data), over_area(matrix, matrix.K));
     EXPECT_EQ(doubles(arrays[1].second.data), over_area(matrix, matrix.error));
     EXPECT_EQ(doubles(arrays[2].second.data), matrix.elements.area);
@@ -184,7 +186,8 @@ TEST(FactorExport, csv_names_every_double_and_leaves_out_what_is_zero) {
   EXPECT_EQ(error, over_area(matrix, matrix.error));
 }
 
-// What is asked of the disk beforehand: enough, but for a heading, and not twice what is needed where every pair sees each other.
+// What is asked of the disk beforehand: enough, but for a heading, and not twice what is needed where every pair sees
+// each other.
 TEST(FactorExport, sizes_are_known_beforehand) {
   const test::TemporaryFolder scratch;
   const Matrix matrix(300);
@@ -192,7 +195,8 @@ TEST(FactorExport, sizes_are_known_beforehand) {
   write_factors_mtx(scratch / "F.mtx", matrix.elements, matrix.rows());
   write_factors_npz(scratch / "F.npz", matrix.elements, matrix.rows());
   for (const char* name : {"F.csv", "F.mtx", "F.npz"}) {
-    const auto bytes = static_cast<double>(std::filesystem::file_size(scratch / name)), most = most_export_bytes(scratch / name, 300, 0);
+    const auto bytes = static_cast<double>(std::filesystem::file_size(scratch / name)),
+               most = most_export_bytes(scratch / name, 300, 0);
     EXPECT_LE(bytes, most + 50e3) << name;
     EXPECT_GT(bytes, 0.5 * most) << name;
   }

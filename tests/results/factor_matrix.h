@@ -19,7 +19,11 @@ struct Matrix {
       elements.area.push_back(0.1 + numbers.next());
       elements.normal.emplace_back(0, 0, i % 2 == 0 ? 1 : -1);
       elements.centroid.emplace_back(numbers.next(), numbers.next(), 1e-300 * numbers.next());
-      elements.name.push_back(i % 3 == 0 ? "wall, \"west\"" : i % 3 == 1 ? "plate/back" : "B\xC3\xB6" "den " + std::to_string(i));
+      elements.name.push_back(i % 3 == 0   ? "wall, \"west\""
+                              : i % 3 == 1 ? "plate/back"
+                                           : "B\xC3\xB6"
+                                             "den " +
+                                                 std::to_string(i));
       for (std::size_t j = i; j < n; ++j) {
         const bool hidden = (i + j) % 5 == 4;
         K[i * n + j] = K[j * n + i] = hidden ? 0 : numbers.next() / 3 * std::pow(10, -3 * numbers.next());

@@ -181,9 +181,13 @@ TEST(FactorStore, of_another_geometry_or_other_settings_is_refused_in_one_line) 
   const Matrix matrix(5), other(6);
   const std::string partial = (scratch / "F.h5.partial").string();
   { FactorStoreWriter store(scratch / "F.h5", matrix.elements, key); }
-  EXPECT_EQ(message_of([&] { FactorStoreWriter(scratch / "F.h5", matrix.elements, {"4567", key.settings}); }),
+  EXPECT_EQ(message_of([&] {
+              FactorStoreWriter(scratch / "F.h5", matrix.elements, {"4567", key.settings});
+            }),
             partial + ": its view factors are of another geometry (digest 0123, not 4567)");
-  EXPECT_EQ(message_of([&] { FactorStoreWriter(scratch / "F.h5", matrix.elements, {"0123", "{}"}); }),
+  EXPECT_EQ(message_of([&] {
+              FactorStoreWriter(scratch / "F.h5", matrix.elements, {"0123", "{}"});
+            }),
             partial + ": it was begun with other settings (remove it to begin anew, or repeat them to go on)");
   EXPECT_EQ(message_of([&] { FactorStoreWriter(scratch / "F.h5", other.elements, key); }),
             partial + ": its elements are others than those of this run");
@@ -227,7 +231,8 @@ TEST(FactorStore, every_truncation_and_every_flipped_byte_is_read_or_refused_in_
   for (std::size_t size = 0; size < bytes.size(); size += 37) {
     scratch.write("cut.h5", bytes.substr(0, size));
     const std::string said = message_of([&] { FactorStore{scratch / "cut.h5"}; });
-    EXPECT_TRUE(said.starts_with((scratch / "cut.h5").string() + ": ")) << size << " of " << bytes.size() << ": " << said;
+    EXPECT_TRUE(said.starts_with((scratch / "cut.h5").string() + ": "))
+        << size << " of " << bytes.size() << ": " << said;
   }
   // In a process of its own: of what is damaged the library loses memory, which a sanitizer would find at our end.
   const pid_t child = ::fork();
@@ -376,7 +381,8 @@ TEST(FactorStore, of_which_the_disk_has_no_room_is_not_begun) {
   const test::TemporaryFolder scratch;
   EXPECT_EQ(message_of([&] { require_disk_room(scratch.path(), 1); }), "");
   const std::string said = message_of([&] { require_disk_room(scratch.path(), 1e24); });
-  EXPECT_TRUE(said.starts_with(scratch.path().string() + ": up to 1000000000000000.0 GB are needed, and its disk has ")) << said;
+  EXPECT_TRUE(said.starts_with(scratch.path().string() + ": up to 1000000000000000.0 GB are needed, and its disk has "))
+      << said;
   const double bytes = factor_store_bytes(20000, 0);
   EXPECT_GT(bytes, 6.0 * 20000 * 20000);
   EXPECT_LT(bytes, 6.6 * 20000 * 20000);

@@ -49,7 +49,8 @@ TEST(GeometryFile, lengths_are_in_the_unit_that_is_named) {
   options.unit = "mm";
   EXPECT_DOUBLE_EQ(geometry_of("m.obj", box, options).scene.area(SurfaceId{0}), 1e-6);
   options.unit = "meter";
-  EXPECT_EQ(said_of_geometry("m.obj", box, options), "the unit 'meter' is not known: one of m, cm, mm, ft, in is expected");
+  EXPECT_EQ(said_of_geometry("m.obj", box, options),
+            "the unit 'meter' is not known: one of m, cm, mm, ft, in is expected");
 }
 
 TEST(GeometryFile, both_sides_of_thin_plates_see) {
@@ -89,7 +90,8 @@ TEST(GeometryFile, meshes_of_other_formats_are_read_too) {
   std::string stl(80, ' ');
   stl += std::string("\2\0\0\0", 4);
   for (int k = 0; k < 2; ++k) {
-    const float numbers[12] = {0, 0, 1, 0, 0, static_cast<float>(k), 1, 0, static_cast<float>(k), 0, 1, static_cast<float>(k)};
+    const float numbers[12] = {
+        0, 0, 1, 0, 0, static_cast<float>(k), 1, 0, static_cast<float>(k), 0, 1, static_cast<float>(k)};
     stl.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
     stl.append(2, '\0');
   }
@@ -106,7 +108,8 @@ TEST(GeometryFile, a_scene_file_stays_as_it_is) {
   EXPECT_EQ(said_of_geometry("s.json", text, options), "s.json: a scene file says its own unit");
   options = {};
   options.two_sided = true;
-  EXPECT_EQ(said_of_geometry("s.json", text, options), "s.json: a scene file says itself which surfaces have two sides");
+  EXPECT_EQ(said_of_geometry("s.json", text, options),
+            "s.json: a scene file says itself which surfaces have two sides");
 }
 
 TEST(GeometryFile, many_faces_of_one_name_are_named_at_once) {
@@ -128,8 +131,10 @@ TEST(GeometryFile, many_faces_of_one_name_are_named_at_once) {
 TEST(GeometryFile, what_is_none_is_refused_in_one_line) {
   EXPECT_EQ(said_of_geometry("m.vs4", "x"), "m.vs4: the geometry format '.vs4' is not known: did you mean '.vs3'?");
   EXPECT_EQ(said_of_geometry("m", "x"),
-            "m: the geometry format '' is not known: one of .obj, .ply, .stl, .gltf, .glb, .vtu, .vtp, .vs3, .json is expected");
-  EXPECT_EQ(said_of_geometry("m.obj", "v 0 0 0\nf 1 2 3\n"), "m.obj:2: a face refers to vertex 2, and 1 are defined so far");
+            "m: the geometry format '' is not known: one of .obj, .ply, .stl, .gltf, .glb, .vtu, .vtp, .vs3, .json is "
+            "expected");
+  EXPECT_EQ(said_of_geometry("m.obj", "v 0 0 0\nf 1 2 3\n"),
+            "m.obj:2: a face refers to vertex 2, and 1 are defined so far");
   EXPECT_EQ(said_of_geometry("m.obj", ""), "m.obj: the file has no faces");
 }
 

@@ -9,7 +9,8 @@
 namespace interflect::scene::test {
 
 /// What is said of a file of geometry, without the folder before its name; "read" of a good one.
-inline std::string said_of_geometry(const std::string& name, const std::string& bytes, const GeometryOptions& options = {}) {
+inline std::string said_of_geometry(const std::string& name, const std::string& bytes,
+                                    const GeometryOptions& options = {}) {
   const interflect::test::TemporaryFolder folder;
   try {
     read_geometry_as_scene(folder.write(name, bytes), options);
@@ -23,7 +24,8 @@ inline std::string said_of_geometry(const std::string& name, const std::string& 
   }
 }
 
-inline ExchangeScene geometry_of(const std::string& name, const std::string& bytes, const GeometryOptions& options = {}) {
+inline ExchangeScene geometry_of(const std::string& name, const std::string& bytes,
+                                 const GeometryOptions& options = {}) {
   const interflect::test::TemporaryFolder folder;
   return read_geometry_as_scene(folder.write(name, bytes), options);
 }

@@ -88,8 +88,9 @@ TEST(Inspect, a_body_without_a_bottom_and_a_partition_are_closed_by_the_floor_th
   for (const double scale : {1e-6, 1.0, 1e6}) {
     Site site;
     site.builder.add_box("room", Box(Vec3(0, 0, 0), scale * Vec3(5, 4, 3)), site.wall, Facing::inward);
-    site.builder.add_polygon("partition", {{scale * Vec3(2, 0, 0), scale * Vec3(2, 4, 0), scale * Vec3(2, 4, 3), scale * Vec3(2, 0, 3)}, {}},
-                             site.sheet);
+    site.builder.add_polygon(
+        "partition", {{scale * Vec3(2, 0, 0), scale * Vec3(2, 4, 0), scale * Vec3(2, 4, 3), scale * Vec3(2, 0, 3)}, {}},
+        site.sheet);
     const Box body(scale * Vec3(3, 1, 0), scale * Vec3(4, 2, 1));
     site.builder.add_box("body", body, site.wall);
     Scene scene = site.builder.finish();

@@ -118,13 +118,15 @@ TEST(MeshFile, repairs_are_counted) {
   EXPECT_EQ(kept.facets.size(), 4u);
 }
 
-// A needle of 1e-9 m where coordinates are rounded to 1e-10 m: cut into quarters it would lie on a line.  At the origin it has an area.
+// A needle of 1e-9 m where coordinates are rounded to 1e-10 m: cut into quarters it would lie on a line.  At the origin
+// it has an area.
 TEST(MeshFile, a_needle_that_its_coordinates_do_not_resolve_is_dropped) {
   for (const auto& [shift, facets] : {std::pair{0, 2}, {1000000, 1}}) {
     const Folder folder;
-    const std::string x = std::to_string(shift), beyond = std::to_string(shift + 1), bit = std::to_string(shift) + ".000000001";
-    folder.write("m.obj", "v " + x + " " + x + " 0\nv " + beyond + " " + x + " 0\nv " + beyond + " " + beyond + " 0\nv " + beyond + " " + bit +
-                              " 0\nf 1 2 3\nf 1 2 4\n");
+    const std::string x = std::to_string(shift), beyond = std::to_string(shift + 1),
+                      bit = std::to_string(shift) + ".000000001";
+    folder.write("m.obj", "v " + x + " " + x + " 0\nv " + beyond + " " + x + " 0\nv " + beyond + " " + beyond +
+                              " 0\nv " + beyond + " " + bit + " 0\nf 1 2 3\nf 1 2 4\n");
     EXPECT_EQ(scene_of(folder, "m.obj").facets.size(), static_cast<std::size_t>(facets)) << shift;
   }
 }

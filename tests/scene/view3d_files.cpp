@@ -29,8 +29,8 @@ std::string square(int first, const std::string& x, const std::string& y) {
 
 TEST(View3dFile, surfaces_keep_their_names_emittances_and_combinations) {
   const ExchangeScene read = geometry_of(
-      "room.vs3", floor_and("V 5 0 0 3\nV 6 4 0 3\n",
-                            "S,2, 2,1,5,6, 0 0 .5 wall\ns 3 2 1 5 0 0 2 1 wall-b\nS 4 1 2 6 0 0 0 0\n"));
+      "room.vs3",
+      floor_and("V 5 0 0 3\nV 6 4 0 3\n", "S,2, 2,1,5,6, 0 0 .5 wall\ns 3 2 1 5 0 0 2 1 wall-b\nS 4 1 2 6 0 0 0 0\n"));
   EXPECT_EQ(names_of(read), (Names{"floor", "wall", "wall-b", "surface-4"}));
   EXPECT_EQ(groups_of(read), (Names{"floor", "wall", "wall", "surface-4"}));
   EXPECT_EQ(read.surfaces[0].emittance, 0.9);
@@ -45,8 +45,8 @@ TEST(View3dFile, surfaces_keep_their_names_emittances_and_combinations) {
 }
 
 TEST(View3dFile, obstructions_only_occlude) {
-  const ExchangeScene read = geometry_of(
-      "room.vs3", floor_and("V 5 0 0 3\nV 6 4 0 3\n", "O 2 2 1 5 6\nO 3 1 2 6 0 0 0 0.5 plate\n"));
+  const ExchangeScene read =
+      geometry_of("room.vs3", floor_and("V 5 0 0 3\nV 6 4 0 3\n", "O 2 2 1 5 6\nO 3 1 2 6 0 0 0 0.5 plate\n"));
   EXPECT_EQ(names_of(read), (Names{"floor", "surface-2", "plate"}));
   EXPECT_EQ(read.surfaces[0].role, ExchangeRole::radiates);
   EXPECT_EQ(read.surfaces[1].role, ExchangeRole::only_occludes);
@@ -65,17 +65,18 @@ TEST(View3dFile, subsurfaces_are_cut_out_of_their_base_wherever_they_lie) {
 
 TEST(View3dFile, subsurfaces_that_touch_and_lie_in_each_other_are_cut) {
   const ExchangeScene read = geometry_of(
-      "room.vs3", floor_and(square(5, "1", "1") + square(9, "2", "1") + "V 13 1.25 1.25 0\nV 14 1.5 1.25 0\nV 15 1.5 1.5 0\n",
-                            "S 2 5 6 7 8 1 0 0.5 left\nS 3 9 10 11 12 1 0 0.5 right\nS 4 13 14 15 0 2 0 0.5 inner\n"));
+      "room.vs3",
+      floor_and(square(5, "1", "1") + square(9, "2", "1") + "V 13 1.25 1.25 0\nV 14 1.5 1.25 0\nV 15 1.5 1.5 0\n",
+                "S 2 5 6 7 8 1 0 0.5 left\nS 3 9 10 11 12 1 0 0.5 right\nS 4 13 14 15 0 2 0 0.5 inner\n"));
   EXPECT_NEAR(read.scene.area(SurfaceId{0}), 14, 1e-12);
   EXPECT_NEAR(read.scene.area(SurfaceId{1}), 1 - 0.03125, 1e-12);
   EXPECT_NEAR(read.scene.area(SurfaceId{3}), 0.03125, 1e-12);
 }
 
 TEST(View3dFile, a_mask_sees_its_base_and_a_null_surface_is_a_hole) {
-  const ExchangeScene read = geometry_of(
-      "room.vs3",
-      floor_and(square(5, "1", "1") + square(9, "2", "2"), "M 2 8 7 6 5 1 0 0.7 crate\nN 3 12 11 10 9 1 0 0.5 shaft\n"));
+  const ExchangeScene read =
+      geometry_of("room.vs3", floor_and(square(5, "1", "1") + square(9, "2", "2"),
+                                        "M 2 8 7 6 5 1 0 0.7 crate\nN 3 12 11 10 9 1 0 0.5 shaft\n"));
   EXPECT_EQ(names_of(read), (Names{"floor"}));
   EXPECT_NEAR(read.scene.area(SurfaceId{0}), 14, 1e-12);
   ASSERT_EQ(read.masks.size(), 1u);
@@ -139,15 +140,19 @@ TEST(View3dFile, faults_name_their_line) {
   EXPECT_EQ(said("", "S 2 1 2 2 0 0 0 1 x\n").substr(0, 42), "r.vs3:10: surface 2 ('x') cannot be used: ");
   EXPECT_EQ(said("V 5 1 1 1\n", "S 2 1 2 5 0 1 0 1 x\n"),
             "r.vs3:11: surface 2 ('x') does not lie in the plane of its base, surface 1");
-  EXPECT_EQ(said("", "S 2 3 2 1 0 1 0 1 x\n"), "r.vs3:10: surface 2 ('x') must face the way that its base faces, surface 1");
+  EXPECT_EQ(said("", "S 2 3 2 1 0 1 0 1 x\n"),
+            "r.vs3:10: surface 2 ('x') must face the way that its base faces, surface 1");
   EXPECT_EQ(said("", "M 2 1 2 3 0 1 0 1 x\n"), "r.vs3:10: surface 2 ('x') must face its base, surface 1");
   EXPECT_EQ(said(square(5, "3.5", "0"), "S 2 5 6 7 8 1 0 1 x\n"),
             "r.vs3:14: surface 2 ('x') does not lie within its base, surface 1, or overlaps another one there");
-  EXPECT_EQ(said("", "M 2 4 3 2 1 1 0 1 x\n"), "r.vs3:10: surface 2 ('x') covers all that is left of its base, surface 1");
+  EXPECT_EQ(said("", "M 2 4 3 2 1 1 0 1 x\n"),
+            "r.vs3:10: surface 2 ('x') covers all that is left of its base, surface 1");
   EXPECT_EQ(said_of_geometry("r.vs3", ""), "r.vs3: the file has no surfaces");
-  EXPECT_EQ(said_of_geometry("r.vs3", "V 1 0 0 0\n"), "r.vs3:1: a line 'F 3' or 'F 3a' is expected before vertices and surfaces");
+  EXPECT_EQ(said_of_geometry("r.vs3", "V 1 0 0 0\n"),
+            "r.vs3:1: a line 'F 3' or 'F 3a' is expected before vertices and surfaces");
   EXPECT_EQ(said_of_geometry("r.vs3", "F 2\n"), "r.vs3:1: the format '2' is not known: 3 or 3a is expected");
-  EXPECT_EQ(said_of_geometry("r.vs3", "F 3a\nS 1 R 0 0 1 a\n 0 0 0 0 90 3\n"), "r.vs3:3: the file ends within a surface");
+  EXPECT_EQ(said_of_geometry("r.vs3", "F 3a\nS 1 R 0 0 1 a\n 0 0 0 0 90 3\n"),
+            "r.vs3:3: the file ends within a surface");
   EXPECT_EQ(said_of_geometry("r.vs3", "F 3a\nS 1 R 0 0 1 a\n 0 0 0 0 90 3 3 3\n"),
             "r.vs3:3: the surface has more numbers than its shape");
   EXPECT_EQ(said_of_geometry("r.vs3", "F 3a\nS 1 P 0 0 1 a\n"),

@@ -35,8 +35,9 @@ std::string cells(const std::string& name, const std::string& values) {
 TEST(VtkFile, polygons_of_every_kind_become_surfaces_and_their_cell_data_groups) {
   // A triangle, a quad, a pixel, a polygon of six corners, a strip of three triangles, and a line.
   const ExchangeScene read = geometry_of(
-      "m.vtu", vtu("0 1 3  1 2 5 4  3 4 6 7  0 1 2 5 4 3  3 4 6 7 8  0 1", "3 7 11 17 22 24", "5 9 8 7 6 3",
-                   cells("surface", "0 1 1 2 3 3") + cells("temperature", "1 2 3 4 5 6") + cells("material", "7 7 7 7 7 7")));
+      "m.vtu",
+      vtu("0 1 3  1 2 5 4  3 4 6 7  0 1 2 5 4 3  3 4 6 7 8  0 1", "3 7 11 17 22 24", "5 9 8 7 6 3",
+          cells("surface", "0 1 1 2 3 3") + cells("temperature", "1 2 3 4 5 6") + cells("material", "7 7 7 7 7 7")));
   EXPECT_EQ(groups_of(read),
             (Names{"surface-0/material-7", "surface-1/material-7", "surface-1/material-7", "surface-2/material-7",
                    "surface-3/material-7", "surface-3/material-7", "surface-3/material-7"}));
@@ -55,7 +56,8 @@ TEST(VtkFile, poly_data_is_read) {
   const ExchangeScene read = geometry_of(
       "m.vtp",
       "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"4\" "
-      "NumberOfVerts=\"1\" NumberOfLines=\"0\" NumberOfStrips=\"1\" NumberOfPolys=\"1\"><Points><DataArray type=\"Float32\" "
+      "NumberOfVerts=\"1\" NumberOfLines=\"0\" NumberOfStrips=\"1\" NumberOfPolys=\"1\"><Points><DataArray "
+      "type=\"Float32\" "
       "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points>"
       "<Verts><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0</DataArray>"
       "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">1</DataArray></Verts>"
@@ -75,7 +77,8 @@ std::string base64_of(const std::string& bytes) {
   std::string out;
   for (std::size_t at = 0; at < bytes.size(); at += 3) {
     std::uint32_t all = 0;
-    for (std::size_t k = 0; k < 3; ++k) all = all << 8 | (at + k < bytes.size() ? static_cast<unsigned char>(bytes[at + k]) : 0u);
+    for (std::size_t k = 0; k < 3; ++k)
+      all = all << 8 | (at + k < bytes.size() ? static_cast<unsigned char>(bytes[at + k]) : 0u);
     for (std::size_t k = 0; k < 4; ++k) out += at + k <= bytes.size() ? digits[all >> (18 - 6 * k) & 63] : '=';
   }
   return out;
@@ -111,8 +114,8 @@ std::string encoded_vtu(const Encoding& e) {
         const std::string plain = bytes.substr(k * block, block);
         parts[k].resize(::compressBound(plain.size()));
         uLongf length = parts[k].size();
-        ::compress(reinterpret_cast<Bytef*>(parts[k].data()), &length,
-                   reinterpret_cast<const Bytef*>(plain.data()), plain.size());
+        ::compress(reinterpret_cast<Bytef*>(parts[k].data()), &length, reinterpret_cast<const Bytef*>(plain.data()),
+                   plain.size());
         parts[k].resize(length);
       }
       const auto size = [](std::size_t s) { return static_cast<std::uint32_t>(s); };
@@ -129,8 +132,8 @@ std::string encoded_vtu(const Encoding& e) {
     return "<DataArray " + head + " format=\"appended\" offset=\"" + place + "\"/>\n";
   };
   const bool swapped = e.big_endian;
-  std::string text = std::string("<VTKFile type=\"UnstructuredGrid\" byte_order=\"") + (swapped ? "Big" : "Little") + "Endian\"" +
-                     (e.zlib ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+  std::string text = std::string("<VTKFile type=\"UnstructuredGrid\" byte_order=\"") + (swapped ? "Big" : "Little") +
+                     "Endian\"" + (e.zlib ? " compressor=\"vtkZLibDataCompressor\"" : "") +
                      "><UnstructuredGrid><Piece NumberOfPoints='5' NumberOfCells='2'><Points>";
   text += array("type='Float64' NumberOfComponents='3'",
                 bytes_of<double>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0.1}, swapped));
@@ -141,7 +144,8 @@ std::string encoded_vtu(const Encoding& e) {
   text += "</Cells><CellData>" + array("type='UInt16' Name='surface'", bytes_of<std::uint16_t>({300, 7}, swapped)) +
           "</CellData></Piece></UnstructuredGrid>";
   if (e.appended)
-    text += std::string("<AppendedData encoding='") + (e.base64 ? "base64" : "raw") + "'>_" + appended + "\n</AppendedData>";
+    text += std::string("<AppendedData encoding='") + (e.base64 ? "base64" : "raw") + "'>_" + appended +
+            "\n</AppendedData>";
   return text + "</VTKFile>\n";
 }
 

@@ -243,8 +243,9 @@ TEST(GaussSeidel, asks_for_a_product_a_sweep_only_where_K_is_not_symmetric) {
                 paid_residual.residual_history[static_cast<std::size_t>(i)], 1e-14);
 }
 
-// For a symmetric positive definite system whose Jacobi iteration has the radius r that of Gauss-Seidel is about r²: half as many
-// sweeps (on a cube at rho = 0.9: 127 and 64).  Here K is closed but random, so only the ratio is asked for.
+// For a symmetric positive definite system whose Jacobi iteration has the radius r that of Gauss-Seidel is about r²:
+// half as many sweeps (on a cube at rho = 0.9: 127 and 64).  Here K is closed but random, so only the ratio is asked
+// for.
 TEST(GaussSeidel, needs_about_half_as_many_sweeps_as_Jacobi) {
   const FullOperator open = random_operator(300, 31, true);
   const FullOperator K(open.matrix(), open.matrix().rowwise().sum());

@@ -20,10 +20,10 @@ struct Truth {
 
 struct Effort {
   double element_size = 0.25;
-  double tolerance = 1e-5;       ///< of an unoccluded form factor
+  double tolerance = 1e-5;  ///< of an unoccluded form factor
   int visibility_rays = 64;
   std::uint64_t samples = 40'000;
-  double fem_error = 0.05;       ///< relative: neither method's own error may be larger, or agreement would prove little
+  double fem_error = 0.05;  ///< relative: neither method's own error may be larger, or agreement would prove little
   double mc_error = 0.02;
   std::string intersector = "embree";
 };
@@ -68,8 +68,9 @@ struct Solved {
 };
 
 /// Mean irradiance over the surfaces of each truth, as a method's answers say.
-inline std::vector<Estimate> means(const scene::Scene& scene, const std::vector<Truth>& truths,
-                                   const std::function<std::vector<Estimate>(std::span<const measure::Measurement>)>& answer) {
+inline std::vector<Estimate> means(
+    const scene::Scene& scene, const std::vector<Truth>& truths,
+    const std::function<std::vector<Estimate>(std::span<const measure::Measurement>)>& answer) {
   std::vector<measure::Measurement> asked;
   std::vector<double> areas;
   for (const Truth& truth : truths) asked.emplace_back(arriving_on(scene, truth.surfaces, areas.emplace_back()));
@@ -81,15 +82,14 @@ inline std::vector<Estimate> means(const scene::Scene& scene, const std::vector<
 /// |answer - truth| <= slack + bound + z_max SE, family alpha 1e-3 by Sidak, and bound + SE <= `largest_error` relative.
 inline void expect_true(const std::string& method, const scene::Scene& scene, const std::vector<Truth>& truths,
                         const std::vector<Estimate>& found, double largest_error) {
-  const double z_max =
-      validation::sidak_z_max(1e-3, truths.size() * static_cast<std::size_t>(scene.channel_count()));
+  const double z_max = validation::sidak_z_max(1e-3, truths.size() * static_cast<std::size_t>(scene.channel_count()));
   for (std::size_t k = 0; k < truths.size(); ++k)
     for (int c = 0; c < scene.channel_count(); ++c) {
       const double truth = truths[k].irradiance[static_cast<std::size_t>(c)], H = found[k].value[c],
                    bound = found[k].error_bound[c], noise = found[k].standard_error[c];
       EXPECT_LE(std::abs(H - truth), truths[k].slack + bound + z_max * noise + 1e-12)
-          << method << ": " << truths[k].surfaces << " channel " << c << ": " << H << " +- " << noise << ", bound " << bound
-          << ", truth " << truth;
+          << method << ": " << truths[k].surfaces << " channel " << c << ": " << H << " +- " << noise << ", bound "
+          << bound << ", truth " << truth;
       EXPECT_TRUE(truth == 0 || bound + noise <= largest_error * truth)
           << method << ": " << truths[k].surfaces << " channel " << c << ": error " << bound + noise << " of " << truth;
     }
@@ -106,8 +106,8 @@ inline std::vector<Estimate> traced_means(const scene::Scene& scene, const std::
 
 inline void expect_both_true(const scene::Scene& scene, const std::vector<Truth>& truths, const Effort& effort) {
   const Solved solved(scene, effort);
-  expect_true("radiosity", scene, truths,
-              means(scene, truths, [&](auto asked) { return solved.answer(scene, asked); }), effort.fem_error);
+  expect_true("radiosity", scene, truths, means(scene, truths, [&](auto asked) { return solved.answer(scene, asked); }),
+              effort.fem_error);
   expect_true("path tracing", scene, truths, traced_means(scene, truths, effort), effort.mc_error);
 }
 

@@ -3,7 +3,8 @@
 #include "tests/truths/both_methods.h"
 #include "tests/truths/scene_text.h"
 
-// What closed scenes must give, whatever the method.  docs/truths.md 2.0, 2.1, 2.2, 2.6, 2.11, or derived beside the test.
+// What closed scenes must give, whatever the method.  docs/truths.md 2.0, 2.1, 2.2, 2.6, 2.11, or derived beside the
+// test.
 namespace interflect::test {
 namespace {
 
@@ -11,7 +12,8 @@ const std::vector<double> reflectances{0.2, 0.5, 0.8, 0.95};
 
 /// An L-shaped room of 2 m height with a block in the air whose faces have 1/160 of the floor's area.
 void l_shaped_room(SceneText& text, const std::string& walls, const std::string& block) {
-  text.prism_room("room", walls, std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}, {2, 3, 0}, {0, 3, 0}}, 2);
+  text.prism_room("room", walls, std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}, {2, 3, 0}, {0, 3, 0}},
+                  2);
   text.block("block", block, {1, 1, 0.5}, {1.25, 1.25, 0.75});
 }
 
@@ -23,7 +25,8 @@ std::vector<Placement> placements() {
           {.rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), .shift = Vec3(3, 4, 5)}};
 }
 
-// docs/truths.md 2.0: E = 1 - rho everywhere gives B = H = 1 everywhere: 1e-10 for finite elements once closure is restored.
+// docs/truths.md 2.0: E = 1 - rho everywhere gives B = H = 1 everywhere: 1e-10 for finite elements once closure is
+// restored.
 TEST(Furnace, is_one_for_both_methods_at_every_reflectance_scale_and_place) {
   for (const Placement& placement : placements()) {
     SceneText text({"a", "b", "c", "d"}, placement);
@@ -32,7 +35,8 @@ TEST(Furnace, is_one_for_both_methods_at_every_reflectance_scale_and_place) {
     text.material("glowing", reflectances, exitances);
     l_shaped_room(text, "glowing", "glowing");
     const scene::Scene scene = text.read();
-    const Effort effort{.element_size = 0.6 * placement.scale, .tolerance = 1e-3, .visibility_rays = 16, .samples = 8192};
+    const Effort effort{
+        .element_size = 0.6 * placement.scale, .tolerance = 1e-3, .visibility_rays = 16, .samples = 8192};
     const Solved closed(scene, effort, true);
     EXPECT_LT(closed.solution.closure_correction, 0.02);
     for (const Spectrum& B : closed.solution.radiosity)
@@ -43,8 +47,8 @@ TEST(Furnace, is_one_for_both_methods_at_every_reflectance_scale_and_place) {
   }
 }
 
-// Without that repair rows sum to 1 + d_i, and B - 1 = (I - rho F)^-1 rho d: at most rho D / (1 - rho (1 + D)) with D = max |d|.
-// The mean of d is what all bounces lose together.
+// Without that repair rows sum to 1 + d_i, and B - 1 = (I - rho F)^-1 rho d: at most rho D / (1 - rho (1 + D)) with D =
+// max |d|. The mean of d is what all bounces lose together.
 TEST(Furnace, without_closure_is_one_as_far_as_rows_sum_to_one) {
   SceneText text({"a", "b", "c", "d"});
   std::vector<double> exitances;
@@ -64,8 +68,8 @@ TEST(Furnace, without_closure_is_one_as_far_as_rows_sum_to_one) {
     }
 }
 
-// What a radiates onto b is what b radiates onto a: A_b H_b (only a emits 1) = A_a H_a (only b emits 1), with all reflections, by
-// two channels of one scene.  a is the block, b a panel: areas 0.375 and 3.
+// What a radiates onto b is what b radiates onto a: A_b H_b (only a emits 1) = A_a H_a (only b emits 1), with all
+// reflections, by two channels of one scene.  a is the block, b a panel: areas 0.375 and 3.
 TEST(Reciprocity, holds_with_all_reflections_and_unequal_areas) {
   SceneText text({"from block", "from wall"});
   text.material("block", {0.3, 0.3}, {1, 0});
@@ -105,13 +109,14 @@ TEST(Energy, is_absorbed_where_one_reflectance_is_everywhere) {
     arriving_on(scene, "block", block);
     arriving_on(scene, "", all);
     EXPECT_NEAR(block / all, 0.375 / (20 + 28 + 0.375), 1e-6);  // coordinates of 1e9 keep seven digits of a metre
-    expect_both_true(scene, {{"", {50 * block / all / 0.4}}},
-                     {.element_size = 0.5 * placement.scale, .tolerance = 1e-4, .visibility_rays = 16, .samples = 100'000});
+    expect_both_true(
+        scene, {{"", {50 * block / all / 0.4}}},
+        {.element_size = 0.5 * placement.scale, .tolerance = 1e-4, .visibility_rays = 16, .samples = 100'000});
   }
 }
 
-// docs/truths.md 2.11, V5: a convex body inside a convex one sees nothing else, so H_room = E A_body / A_room, and none of it
-// returns.  The body's faces have 1/225 of the room's, and it hangs askew and off the middle.
+// docs/truths.md 2.11, V5: a convex body inside a convex one sees nothing else, so H_room = E A_body / A_room, and none
+// of it returns.  The body's faces have 1/225 of the room's, and it hangs askew and off the middle.
 TEST(ConvexInConvex, sends_all_it_emits_to_what_surrounds_it) {
   const Eigen::Matrix3d askew = Eigen::AngleAxisd(0.6, Vec3(1, -2, 1).normalized()).toRotationMatrix();
   SceneText text({"flight", "furnace"});
@@ -128,10 +133,10 @@ TEST(ConvexInConvex, sends_all_it_emits_to_what_surrounds_it) {
                    {.element_size = 0.4, .tolerance = 1e-4, .samples = 100'000});
 }
 
-// docs/truths.md 2.2, with the occlusion exact: B_2 = r_2 k / (1 - r_2 (1 - k) - r_1 r_2 k), B_1 = 1 + r_1 B_2 with
-// k = A_1 / A_2 = 1/4, exact since the two polyhedra are similar.  320 triangles each, with edges of h = 0.3 of the radius:
-// radiosities are uniform but for O(h²), and so are the form factors that weigh them; the means are off by the product of the
-// two, O(h⁴) = 0.008.
+// docs/truths.md 2.2, with the occlusion exact: B_2 = r_2 k / (1 - r_2 (1 - k) - r_1 r_2 k), B_1 = 1 + r_1 B_2 with k =
+// A_1 / A_2 = 1/4, exact since the two polyhedra are similar.  320 triangles each, with edges of h = 0.3 of the radius:
+// radiosities are uniform but for O(h²), and so are the form factors that weigh them; the means are off by the product
+// of the two, O(h⁴) = 0.008.
 TEST(ConcentricSpheres, exchange_as_two_uniform_surfaces) {
   const TemporaryFolder folder;
   std::string obj;
@@ -152,7 +157,8 @@ TEST(ConcentricSpheres, exchange_as_two_uniform_surfaces) {
   const scene::Scene scene = text.read(folder.path());
   ASSERT_EQ(scene.surfaces.size(), 2u);
   const double outer[] = {0.4142011834319526, 2.0 / 9}, inner[] = {1.124260355029586, 10.0 / 9};
-  const std::vector<double> on_inner{(inner[0] - 1) / 0.3, (inner[1] - 1) / 0.5}, on_outer{outer[0] / 0.7, outer[1] / 0.5};
+  const std::vector<double> on_inner{(inner[0] - 1) / 0.3, (inner[1] - 1) / 0.5},
+      on_outer{outer[0] / 0.7, outer[1] / 0.5};
   expect_both_true(scene, {{"inner", on_inner, 0.008 * on_inner[0]}, {"outer", on_outer, 0.008 * on_outer[1]}},
                    {.element_size = 0.7, .tolerance = 1e-3, .visibility_rays = 16, .samples = 100'000});
 }

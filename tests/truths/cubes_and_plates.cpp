@@ -25,8 +25,10 @@ std::vector<Truth> truths_of_squares() {
 // docs/truths.md 2.4.
 TEST(ParallelSquares, have_their_known_means_by_both_methods_and_both_ray_casters) {
   for (const char* intersector : {"embree", "brute"})
-    expect_both_true(squares(), truths_of_squares(), {.element_size = 0.125, .samples = 400'000, .intersector = intersector});
-  for (const Placement& placement : {Placement{.scale = 1e-6}, Placement{.scale = 1e6}, Placement{.shift = {1e9, 1e9, -1e9}}})
+    expect_both_true(squares(), truths_of_squares(),
+                     {.element_size = 0.125, .samples = 400'000, .intersector = intersector});
+  for (const Placement& placement :
+       {Placement{.scale = 1e-6}, Placement{.scale = 1e6}, Placement{.shift = {1e9, 1e9, -1e9}}})
     expect_both_true(squares(placement), truths_of_squares(),
                      {.element_size = 0.125 * placement.scale, .samples = 100'000, .mc_error = 0.04});
 }
@@ -47,7 +49,8 @@ TEST(ParallelSquares, are_approached_with_order_two) {
   for (std::size_t k = 0; k < coarse.size(); ++k) EXPECT_NEAR(std::log2(std::abs(coarse[k] / fine[k])), 2, 0.1) << k;
 }
 
-// docs/truths.md 2.6: the limit of fine meshes.  Uniform meshes come to it with order 1.5 to 2; the bounds are the solution's own.
+// docs/truths.md 2.6: the limit of fine meshes.  Uniform meshes come to it with order 1.5 to 2; the bounds are the
+// solution's own.
 TEST(Cube, with_a_glowing_floor_has_its_known_means_by_both_methods_and_both_ray_casters) {
   SceneText text({".5", ".8"});
   text.material("floor", {0.5, 0.8}, {1, 1});
@@ -64,10 +67,12 @@ TEST(Cube, with_a_glowing_floor_has_its_known_means_by_both_methods_and_both_ray
                                   {"wall", {0.1811056 / 0.5, 0.687879 / 0.8}, digits}};
   const scene::Scene scene = text.read();
   for (const char* intersector : {"embree", "brute"})
-    expect_both_true(scene, truths, {.element_size = 0.125, .samples = 400'000, .mc_error = 0.01, .intersector = intersector});
+    expect_both_true(scene, truths,
+                     {.element_size = 0.125, .samples = 400'000, .mc_error = 0.01, .intersector = intersector});
 }
 
-// docs/truths.md 2.11, V6 and V7: without reflections H_2 = F_21 E_1, and what a thin square in between takes away is known.
+// docs/truths.md 2.11, V6 and V7: without reflections H_2 = F_21 E_1, and what a thin square in between takes away is
+// known.
 TEST(Occluder, takes_the_part_that_it_hides) {
   const double open = 0.199824895698, quarter = 0.149868671774, centred = 0.099506294599;
   for (const auto& [low, side, truth] : {std::tuple{0.0, 0.0, open}, {0.0, 0.5, quarter}, {0.25, 0.5, centred}}) {
@@ -112,9 +117,9 @@ struct EmittingSphere {
   std::vector<double> cosine;  ///< of each facet's direction from +z
 };
 
-// docs/truths.md 2.1: inside a sphere the irradiance is <E> / (1 - rho) everywhere, 2 for E = 1 + cos(theta) and rho = 1/2, so
-// that the moment sum A B cos(theta) is 4 pi / 3.  Flat facets come to it with order 2; the irradiance of a single one, whose
-// normal does not go through its centroid, with order 1 (0.018 at level 1, 0.0091 at level 2).
+// docs/truths.md 2.1: inside a sphere the irradiance is <E> / (1 - rho) everywhere, 2 for E = 1 + cos(theta) and rho =
+// 1/2, so that the moment sum A B cos(theta) is 4 pi / 3.  Flat facets come to it with order 2; the irradiance of a
+// single one, whose normal does not go through its centroid, with order 1 (0.018 at level 1, 0.0091 at level 2).
 TEST(Sphere, of_any_emission_has_a_uniform_irradiance_with_order_two) {
   std::vector<double> error;
   for (const int level : {1, 2}) {

@@ -27,8 +27,8 @@ class SceneText {
 
   /// One number a channel.
   void material(const std::string& name, std::span<const double> reflectance, std::span<const double> exitance) {
-    add(materials_, "\"" + name + "\": { \"type\": \"diffuse\", \"sides\": \"front\", \"reflectance\": " + list(reflectance) +
-                        ", \"exitance\": " + list(exitance) + " }");
+    add(materials_, "\"" + name + "\": { \"type\": \"diffuse\", \"sides\": \"front\", \"reflectance\": " +
+                        list(reflectance) + ", \"exitance\": " + list(exitance) + " }");
   }
   void material(const std::string& name, std::initializer_list<double> reflectance,
                 std::initializer_list<double> exitance) {
@@ -40,12 +40,14 @@ class SceneText {
       const Vec3 p = place_(x);
       add(corners, core::format("[%.17g, %.17g, %.17g]", p.x(), p.y(), p.z()));
     }
-    add(geometry_, "{ \"name\": \"" + name + "\", \"material\": \"" + material + "\", \"polygon\": [" + corners + "] }");
+    add(geometry_,
+        "{ \"name\": \"" + name + "\", \"material\": \"" + material + "\", \"polygon\": [" + corners + "] }");
   }
   void polygon(const std::string& name, const std::string& material, std::initializer_list<Vec3> ring) {
     polygon(name, material, std::span(ring.begin(), ring.size()));
   }
-  /// The walls of a room over a counter-clockwise ring of the xy plane, seen from inside: NAME/floor, NAME/ceiling, NAME/wall.
+  /// The walls of a room over a counter-clockwise ring of the xy plane, seen from inside: NAME/floor, NAME/ceiling,
+  /// NAME/wall.
   void prism_room(const std::string& name, const std::string& material, std::span<const Vec3> floor, double height) {
     const Vec3 up(0, 0, height);
     std::vector<Vec3> top;
@@ -79,10 +81,11 @@ class SceneText {
   scene::Scene read(const std::filesystem::path& folder = ".") const {
     std::string names;
     for (const std::string& channel : channels_) add(names, "\"" + channel + "\"");
-    return scene::parse_scene("{ \"format\": \"interflect/scene/1\", \"units\": \"m\", \"quantity\": \"radiometric\", \"channels\": [" +
-                                  names + "], \"weights\": " + list(std::vector<double>(channels_.size(), 1.0)) +
-                                  ",\n\"materials\": {" + materials_ + "},\n\"geometry\": [" + geometry_ + "] }",
-                              "truth.json", folder);
+    return scene::parse_scene(
+        "{ \"format\": \"interflect/scene/1\", \"units\": \"m\", \"quantity\": \"radiometric\", \"channels\": [" +
+            names + "], \"weights\": " + list(std::vector<double>(channels_.size(), 1.0)) + ",\n\"materials\": {" +
+            materials_ + "},\n\"geometry\": [" + geometry_ + "] }",
+        "truth.json", folder);
   }
 
  private:

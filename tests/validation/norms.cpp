@@ -79,8 +79,9 @@ TEST(Norms, the_maximum_is_relative_to_the_mean_irradiance_and_names_its_place) 
   EXPECT_NEAR(n.max.low, n.max.high, 1e-12);
 }
 
-/// 1 000 sets: coverage 0.95 has sigma 6.9.  The delta method is asymptotic in 500 measurements of unequal areas (effective
-/// number about 150): one percent is allowed below, besides 4 sigma: 950 - 10 - 28.  L1's interval is conservative by design.
+/// 1 000 sets: coverage 0.95 has sigma 6.9.  The delta method is asymptotic in 500 measurements of unequal areas
+/// (effective number about 150): one percent is allowed below, besides 4 sigma: 950 - 10 - 28.  L1's interval is
+/// conservative by design.
 void expect_covered_without_bias(const Coverage& c) {
   EXPECT_GE(c.l2, 912);
   EXPECT_LE(c.l2, 985);

@@ -20,7 +20,9 @@ int differing(const core::Image& a, const core::Image& b) {
   return count;
 }
 
-visual::Plot plot(std::vector<double> x, std::vector<double> y) { return {"title", "x", "y", {{"", std::move(x), std::move(y)}}}; }
+visual::Plot plot(std::vector<double> x, std::vector<double> y) {
+  return {"title", "x", "y", {{"", std::move(x), std::move(y)}}};
+}
 
 }  // namespace
 
