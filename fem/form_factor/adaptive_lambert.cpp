@@ -39,7 +39,7 @@ struct Cell {
   std::size_t corners;
   double refined = 0, error = 0;
   std::array<double, 4> part_value{};
-  double spread = 0;  ///< how much its parts would differ if they had equal areas
+  double spread = 0;  ///< of its parts
   double chance = 1;  ///< of its error being small by chance: many cells even it out
 
   std::span<const Vec3> ring() const { return {corner.data(), corners}; }
@@ -63,6 +63,21 @@ Standing standing(std::span<const Vec3> ring, std::span<const Vec3> outline) {
         std::min(result.distance, geometry::distance_to_segment(middle, outline[k], outline[(k + 1) % outline.size()]));
   return result;
 }
+
+/// How much a cell's parts would differ if they had equal areas.
+class Spread {
+ public:
+  void add(double integral, double area) {
+    if (!(area > 0)) return;
+    area_ += area;
+    least_ = std::min(least_, integral / area);
+    greatest_ = std::max(greatest_, integral / area);
+  }
+  double of_four() const { return area_ > 0 ? 0.25 * area_ * (greatest_ - least_) : 0; }
+
+ private:
+  double area_ = 0, least_ = std::numeric_limits<double>::infinity(), greatest_ = 0;
+};
 
 class Refinement {
  public:
@@ -92,16 +107,13 @@ class Refinement {
 
  private:
   void add(Cell cell, double value) {
-    double area = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+    Spread spread;
     for (std::size_t k = 0; const CellPart& part : four_parts(cell.ring())) {
-      const double of_part = by_rule(part.ring()), part_area = area_of_nodes();
+      const double of_part = by_rule(part.ring());
+      spread.add(of_part, area_of_nodes());
       cell.refined += cell.part_value[k++] = of_part;
-      if (!(part_area > 0)) continue;
-      area += part_area;
-      least = std::min(least, of_part / part_area);
-      most = std::max(most, of_part / part_area);
     }
-    cell.spread = area > 0 ? 0.25 * area * (most - least) : 0;
+    cell.spread = spread.of_four();
     cell.error = error_of(cell, std::abs(cell.refined - value));
     value_ += cell.refined;
     error_ += cell.error;
@@ -113,6 +125,7 @@ class Refinement {
     if (!(s < rough_from)) return difference + scheme_.rough_floor * spread;
     return scheme_.smooth * difference + scheme_.smooth_floor * std::pow(s, scheme_.power) * spread;
   }
+  /// Of the cell that was last integrated [m²].
   double area_of_nodes() const {
     double sum = 0;
     for (const SurfaceNode& node : nodes_) sum += node.weight;

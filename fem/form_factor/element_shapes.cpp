@@ -17,6 +17,35 @@ geometry::Box box_of(std::span<const scene::SurfacePatch> patches) {
   return box;
 }
 
+/// @param growth  of the element's width from the middle to the axis' end, as a part
+HalfAxis along(const Vec3& half, double growth = 0) {
+  const double length = half.norm();
+  if (!(length > 0)) return {};
+  return {half / length, length, growth / length};
+}
+
+/// A quad is c + u A + v B + u v W, -1 <= u, v <= 1, with a Jacobian in proportion to A x B + u A x W + v W x B.  Where
+/// W is rounding, opposite sides are as one.
+void add_axes_of_quad(ElementShape& shape) {
+  const auto& p = shape.corner;
+  const Vec3 A = 0.25 * (p[1] - p[0] + p[2] - p[3]), B = 0.25 * (p[3] - p[0] + p[2] - p[1]),
+             W = 0.25 * (p[0] - p[1] + p[2] - p[3]);
+  if (W.norm() <= 1e-9 * shape.radius) {
+    shape.axis = {along(A), along(B)};
+    shape.axis_count = 2;
+    return;
+  }
+  const double jacobian = A.cross(B).norm(), of_u = A.cross(W).norm() / jacobian, of_v = W.cross(B).norm() / jacobian;
+  shape.axis = {along(A + W, of_u), along(A - W, of_u), along(B + W, of_v), along(B - W, of_v)};
+  shape.axis_count = 4;
+}
+
+void add_axes(ElementShape& shape) {
+  if (shape.corners == 4) return add_axes_of_quad(shape);
+  for (std::size_t k = 0; k < 3; ++k) shape.axis[k] = along(shape.corner[k] - shape.centroid);
+  shape.axis_count = 3;
+}
+
 }  // namespace
 
 ElementShape shape_of(std::span<const Vec3> ring, const geometry::Plane& plane) {
@@ -32,6 +61,7 @@ ElementShape shape_of(std::span<const Vec3> ring, const geometry::Plane& plane) 
   }
   shape.centroid = ring[0] + moment / shape.area;
   for (const Vec3& p : ring) shape.radius = std::max(shape.radius, (p - shape.centroid).norm());
+  add_axes(shape);
   return shape;
 }
 

@@ -11,6 +11,13 @@
 
 namespace interflect::fem {
 
+/// A direction in which an element extends, and how far.
+struct HalfAxis {
+  Vec3 direction = Vec3::Zero();
+  double length = 0;    ///< [m]
+  double widening = 0;  ///< by what part the element grows wider along it [1/m]; 0 for parallelograms
+};
+
 /// What a pair of elements is integrated from, computed once per element; positions relative to
 /// `ElementShapes::origin`.
 struct ElementShape {
@@ -20,6 +27,10 @@ struct ElementShape {
   Vec3 centroid;
   double radius = 0;  ///< of the ball about the centroid that holds the element [m]
   double area = 0;    ///< [m²]
+  /// Of a parallelogram half of two sides, of another quad half of all four, of a triangle from the centroid to its
+  /// corners.
+  std::array<HalfAxis, 4> axis{};
+  std::size_t axis_count = 0;
 
   std::span<const Vec3> ring() const { return {corner.data(), corners}; }
 };

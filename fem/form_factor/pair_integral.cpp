@@ -101,19 +101,12 @@ double far_rounding(const ElementShape& a, const ElementShape& b, double toleran
          (a.centroid - b.centroid).squaredNorm();
 }
 
-/// The far field where it will do, from the level that promises to, and else the near field.
+/// The far field where it will do, and else the near field.
 template <class FarField>
 Integral PairIntegrator::unclipped(const ElementShape& a, const ElementShape& b, const FarField& far) const {
-  const FarPair pair = far_pair(a, b);
-  int level = far_field_level(pair, tolerance_);
-  if (level == ElementShapes::levels) return bounded(near_field(a, b, tolerance_), a, b);
-  const double rounding = far_rounding(a, b, tolerance_);
-  double before = far(level - 1);
-  for (; level < ElementShapes::levels; ++level) {
-    const double value = std::max(0.0, far(level)),
-                 error = far_field_error(level, pair, value - before, value) + rounding;
+  if (const auto rule = far_rule(far_pair(a, b), tolerance_)) {
+    const double value = std::max(0.0, far(rule->level)), error = rule->error * value + far_rounding(a, b, tolerance_);
     if (error <= tolerance_ * value) return {value, error};
-    before = value;
   }
   return bounded(near_field(a, b, tolerance_), a, b);
 }
