@@ -10,6 +10,7 @@
 #include "core/format.h"
 #include "core/log.h"
 #include "fem/method_trial.h"
+#include "fem/tolerance_trial.h"
 #include "results/factor_export.h"
 #include "results/output_directory.h"
 #include "results/record.h"
@@ -200,11 +201,14 @@ double bytes_of(const ViewFactorOptions& options, const FactorRequest& request) 
          (summed ? 0 : results::most_export_bytes(options.out, request.size(), request.points.size()));
 }
 
-FactorForecast forecast_of(const ViewFactorOptions& options, const FactorRequest& request,
-                           const fem::FormFactorMethod& method, const fem::PointViewFactors& points, const Run& run) {
+FactorForecast forecast_of(const ViewFactorOptions& options, const FactorRequest& request, const fem::MethodMaker& make,
+                           const fem::PointViewFactors& points, const Run& run) {
   const auto n = static_cast<double>(request.elements.open), count = static_cast<double>(request.points.size());
   FactorForecast forecast{static_cast<double>(request.size()), 0.5 * n * (n - 1), count, bytes_of(options, request), 0};
-  const double work = forecast.pairs * fem::seconds_per_pair(method, request.elements.seeing(), run) +
+  const auto method = make(fem::entry_tolerance(options.tolerance));
+  const auto elements = request.elements.seeing();
+  const double work = forecast.pairs * fem::seconds_per_pair(*method, elements, run) +
+                      fem::seconds_of_later_passes(make, options.tolerance, elements, fem::AgainPart::entries, run) +
                       count * fem::seconds_per_point(points, request.places());
   forecast.seconds = work / run.threads.count();
   return forecast;
@@ -262,7 +266,7 @@ fem::ToleranceReport factors_into(const std::filesystem::path& file, const resul
   }
   const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
   results::require_disk_room(folder, bytes_of(options, request) - results::begun_bytes(file));
-  FactorStoreWriter writer(file, request.about, key, 512, request.points);
+  FactorStoreWriter writer(file, request.about, key, 0, request.points);
   if (known && writer.done() == 0) {
     if (talk) std::printf("%s has those between elements already\n", file.string().c_str());
     take_tiles(*known, writer);
@@ -292,8 +296,7 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
   };
   const fem::PointViewFactors points(request.geometry.scene, request.elements.seeing());
   if (talk || options.forecast_only) {
-    const FactorForecast forecast =
-        forecast_of(options, request, *make(fem::entry_tolerance(options.tolerance)), points, run);
+    const FactorForecast forecast = forecast_of(options, request, make, points, run);
     if (options.forecast_only) return print_forecast(forecast, common.json);
     std::printf("%s\n", text_of(forecast).c_str());
     std::fflush(stdout);

@@ -5,7 +5,7 @@
 #include "core/format.h"
 #include "fem/method_trial.h"
 #include "fem/radiosity_operator.h"
-#include "fem/row_errors.h"
+#include "fem/tolerance_trial.h"
 #include "mesh/uniform.h"
 
 namespace interflect::fem {
@@ -76,18 +76,24 @@ std::string way_out(const scene::Scene& scene, const RadiositySettings& settings
 
 /// What form factors of the very mesh need, by a short trial.
 struct Assembly {
-  double seconds_per_pair;  ///< on one thread
-  double bytes;             ///< of everything
+  double seconds;  ///< on one thread
+  double bytes;    ///< of everything
 };
 Assembly trial(const scene::Scene& scene, const RadiositySettings& settings, const mesh::ElementMesh& mesh,
                const Run& run) {
   const auto rays = raycast::make_ray_caster(settings.intersector, scene);
-  FormFactorContext context = form_factor_context(scene, mesh.patches(), *rays, settings, run.seed);
-  if (settings.row_tolerance > 0) context.tolerance = entry_tolerance(settings.row_tolerance);
-  const auto method = make_form_factor_method(settings.form_factors, context);
+  const auto make = [&](double relative) {
+    FormFactorContext context = form_factor_context(scene, mesh.patches(), *rays, settings, run.seed);
+    context.tolerance = relative;
+    return make_form_factor_method(settings.form_factors, context);
+  };
+  const bool to_rows = settings.row_tolerance > 0;
+  const auto method = make(to_rows ? entry_tolerance(settings.row_tolerance) : settings.quadrature_tolerance);
   const auto elements = static_cast<double>(mesh.size());
   require_memory(scene, elements, settings, method->granularity());
-  return {seconds_per_pair(*method, mesh.patches(), run), predicted_bytes(elements, settings, method->granularity())};
+  double seconds = 0.5 * elements * elements * seconds_per_pair(*method, mesh.patches(), run);
+  if (to_rows) seconds += seconds_of_later_passes(make, settings.row_tolerance, mesh.patches(), AgainPart::rows, run);
+  return {seconds, predicted_bytes(elements, settings, method->granularity())};
 }
 
 }  // namespace
@@ -123,7 +129,7 @@ Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, 
   const Assembly assembly = trial(scene, settings, mesh, run);
   const double solve =
       30.0 * pairs * 1e-9 * scene.channel_count();  // about thirty sweeps over the matrix, memory bound
-  return {elements, assembly.bytes, pairs * assembly.seconds_per_pair / run.threads.count() + solve};
+  return {elements, assembly.bytes, assembly.seconds / run.threads.count() + solve};
 }
 
 }  // namespace interflect::fem

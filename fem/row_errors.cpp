@@ -13,7 +13,6 @@ namespace interflect::fem {
 namespace {
 
 constexpr double unit = 0x1p-52;
-constexpr int most_passes = 6;
 
 std::vector<double> areas_of(std::span<const scene::SurfacePatch> patches) {
   std::vector<double> areas;
@@ -110,18 +109,21 @@ void RowErrors::count_afresh(std::span<const Index> rows) {
   }
 }
 
-double entry_tolerance(double of_rows) { return std::min(0.1, 4 * of_rows); }
+double entry_tolerance(double of_rows, int pass) { return std::ldexp(std::min(0.1, 4 * of_rows), -2 * pass); }
+
+double negligible_error(double tolerance, double area, Index elements) {
+  return 0.25 * tolerance * area / static_cast<double>(elements);
+}
 
 ToleranceReport until_rows_meet(double tolerance, const MethodMaker& make, RowAssembly& assembly) {
   ToleranceReport report;
-  double relative = entry_tolerance(tolerance);
-  std::unique_ptr<FormFactorMethod> method = make(relative);
+  std::unique_ptr<FormFactorMethod> method = make(entry_tolerance(tolerance));
   assembly.everything(*method);
   report.row_errors = assembly.row_errors();
   report.passes = 1;
   std::vector<Index> rows = rows_above(tolerance, report.row_errors);
   while (!rows.empty() && report.passes < most_passes && method->granularity() == FormFactorMethod::Granularity::pair) {
-    method = make(relative *= 0.25);
+    method = make(entry_tolerance(tolerance, report.passes));
     assembly.again(*method, rows);
     report.row_errors = assembly.row_errors();
     ++report.passes;

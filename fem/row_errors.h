@@ -37,7 +37,14 @@ class RowErrors final : public ExchangeSink {
 
 /// The relative tolerance of entries with which rows mostly meet theirs: errors come out far smaller than what entries
 /// may have, and many entries have none.
-double entry_tolerance(double of_rows);
+/// @param pass  0 for the first, and so on: a quarter of the one before
+double entry_tolerance(double of_rows, int pass = 0);
+
+constexpr int most_passes = 6;
+
+/// Of an entry of a row, in a matrix of so many elements: all that are below it make up a quarter of what the row may
+/// err [m²].
+double negligible_error(double tolerance, double area, Index elements);
 
 struct ToleranceReport {
   PairCounts pairs;
@@ -57,8 +64,8 @@ class RowAssembly {
   virtual std::vector<double> row_errors() const = 0;
   virtual PairCounts counts() const = 0;
 };
-/// Computes everything, and again the rows whose errors are above the tolerance, to a quarter each time, six times at
-/// most.
+/// Computes everything, and again the rows whose errors are above the tolerance, to a quarter each time, in
+/// `most_passes` passes at most.
 ToleranceReport until_rows_meet(double tolerance, const MethodMaker& make, RowAssembly& assembly);
 
 /// All entries with max_a e_a <= tolerance.

@@ -170,9 +170,8 @@ class TiledAssembly final : public RowAssembly {
     const auto known = static_cast<Index>(patches_.size());
     return {patches_, range.first, std::clamp<Index>(known - range.first, 0, range.count)};
   }
-  /// Of a row: all entries below it make up a quarter of what it may err [m²].
   double negligible(Index a) const {
-    return 0.25 * tolerance_ * patches_[static_cast<std::size_t>(a)].area / static_cast<double>(patches_.size());
+    return negligible_error(tolerance_, patches_[static_cast<std::size_t>(a)].area, std::ssize(patches_));
   }
   /// Runs of neighbours that are wanted.
   template <class Wanted, class Work>

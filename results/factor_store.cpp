@@ -133,20 +133,23 @@ Hdf5File FactorStoreWriter::begin(const std::filesystem::path& file, const Facto
   return store;
 }
 
+Index usual_tile(Index elements) { return std::clamp<Index>((elements + 31) / 32, 16, 512); }
+
 FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorElements& elements,
                                      const FactorStoreKey& key, Index tile,
                                      std::span<const measure::SensorPoint> points)
     : file_(std::move(file)), partial_(partial_of(file_)), size_(elements.size()), area_(elements.area) {
   const std::size_t n = elements.area.size();
-  if (elements.normal.size() != n || elements.centroid.size() != n || elements.name.size() != n || tile < 1)
-    throw core::PreconditionError("FactorStoreWriter: one entry per element in each list, and a tile of 1 or more");
+  if (elements.normal.size() != n || elements.centroid.size() != n || elements.name.size() != n || tile < 0)
+    throw core::PreconditionError("FactorStoreWriter: one entry per element in each list, and a tile of 0 or more");
   if (std::error_code error; file_.filename().empty() || std::filesystem::is_directory(file_, error))
     throw core::InputError(file_.string(), "cannot be written: Is a directory");
   if (std::error_code error; !std::filesystem::exists(partial_, error)) {
     // Not under its name before it can be opened again.
     const std::filesystem::path unborn = partial_.string() + ".new";
     try {
-      begin(unborn, elements, key, std::min(tile, std::max<Index>(size_, 1)), points);
+      const Index wanted = tile > 0 ? tile : usual_tile(size_);
+      begin(unborn, elements, key, std::min(wanted, std::max<Index>(size_, 1)), points);
       keep_as(unborn, partial_);
     } catch (const core::InputError&) {
       std::filesystem::remove(unborn, error);
@@ -373,8 +376,9 @@ double begun_bytes(const std::filesystem::path& file) {
   return ::stat(partial_of(file).c_str(), &status) == 0 ? block * static_cast<double>(status.st_blocks) : 0;
 }
 
-double factor_store_bytes(std::uint64_t elements, std::uint64_t points, std::uint64_t tile) {
-  const auto t = static_cast<double>(std::min(tile, elements)), n = static_cast<double>(elements);
+double factor_store_bytes(std::uint64_t elements, std::uint64_t points) {
+  const auto n = static_cast<double>(elements),
+             t = std::min(n, static_cast<double>(usual_tile(static_cast<Index>(elements))));
   const double across = elements > 0 ? std::ceil(n / t) : 0;
   constexpr double per_pair = sizeof(double) + sizeof(float), lists = 9 * sizeof(double) + 65, structure = 1 << 20;
   return 0.5 * per_pair * across * (across + 1) * t * t + lists * n +

@@ -23,6 +23,10 @@ struct FactorStoreKey {
   std::string settings;  ///< JSON text: method, tolerance, seed; nothing that leaves the numbers alone, such as threads
 };
 
+/// Elements along the side of a tile: 512, or less where that leaves fewer than 32 tiles in a row, so that many threads
+/// have work; at least 16.
+Index usual_tile(Index elements);
+
 /// A store that is being filled, under the name FILE.partial until it is finished: FILE is whole or the one of before.
 ///
 /// A tile (I, J), I <= J, holds K of the elements I tile .. and J tile .., the last tiles as many as there are.  A
@@ -31,13 +35,12 @@ struct FactorStoreKey {
 class FactorStoreWriter {
  public:
   /// Begins a store, or goes on with FILE.partial.
-  /// @param tile    elements along the side of a tile; one that goes on keeps the size that it was begun with
+  /// @param tile    elements along the side of a tile; 0: usual_tile; one that goes on keeps what it was begun with
   /// @param points  whose view factors the store has as well, a row for each
   /// @throws core::InputError  FILE.partial is of another geometry, of other settings or sensors, damaged, or open
-  /// elsewhere; or
-  ///                           no file can be written there
+  ///                           elsewhere; or no file can be written there
   FactorStoreWriter(std::filesystem::path file, const FactorElements& elements, const FactorStoreKey& key,
-                    Index tile = 512, std::span<const measure::SensorPoint> points = {});
+                    Index tile = 0, std::span<const measure::SensorPoint> points = {});
 
   Index size() const { return size_; }
   Index tile() const { return tile_; }
@@ -121,7 +124,8 @@ class FactorStore {
 
 /// Bytes on the disk of what an interrupted run has left of a store.
 double begun_bytes(const std::filesystem::path& file);
-/// Most bytes that a store takes on the disk: of the matrix the tiles of the upper triangle alone.
-double factor_store_bytes(std::uint64_t elements, std::uint64_t points, std::uint64_t tile = 512);
+/// Most bytes that a store takes on the disk: of the matrix the tiles of the upper triangle alone, in the
+/// usual size.
+double factor_store_bytes(std::uint64_t elements, std::uint64_t points);
 
 }  // namespace interflect::results

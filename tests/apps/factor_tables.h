@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -21,6 +22,12 @@ inline std::map<std::pair<std::string, std::string>, TableEntry> entries_of(cons
                                                                       std::stod(line.substr(error + 1))};
   }
   return entries;
+}
+
+/// As Circumstances::interrupt_when: the progress, which is told after two seconds, says that there are some tiles.
+inline bool some_tiles(const std::string& err) {
+  static const std::regex pattern("form factors: [1-9][0-9]* %");
+  return std::regex_search(err, pattern);
 }
 
 }  // namespace interflect::test

@@ -286,6 +286,16 @@ TEST(FactorStore, tiles_that_a_full_disk_refuses_can_be_written_later) {
   expect_holds(scratch / "F.h5", matrix);
 }
 
+TEST(FactorStore, has_many_tiles_wherever_there_are_many_elements) {
+  EXPECT_EQ(usual_tile(20'000), 512);
+  EXPECT_EQ(usual_tile(4'656), 146);
+  EXPECT_EQ(usual_tile(181), 16);
+  EXPECT_EQ(usual_tile(0), 16);
+  const test::TemporaryFolder scratch;
+  FactorStoreWriter store(scratch / "F.h5", Matrix(181).elements, key);
+  EXPECT_EQ(store.tiles_across(), 12);
+}
+
 TEST(FactorStore, what_cannot_be_a_tile_is_a_bug) {
   const test::TemporaryFolder scratch;
   const Matrix matrix(5);
@@ -296,7 +306,7 @@ TEST(FactorStore, what_cannot_be_a_tile_is_a_bug) {
   EXPECT_THROW(store.write(0, 2, four, four), core::PreconditionError);
   EXPECT_THROW(store.write(0, 1, bad, four), core::PreconditionError);
   EXPECT_THROW(store.write(0, 1, four, bad), core::PreconditionError);
-  EXPECT_THROW(FactorStoreWriter(scratch / "G.h5", matrix.elements, key, 0), core::PreconditionError);
+  EXPECT_THROW(FactorStoreWriter(scratch / "G.h5", matrix.elements, key, -1), core::PreconditionError);
 }
 
 TEST(GeometryDigest, tells_shapes_apart_and_nothing_else) {

@@ -1,0 +1,76 @@
+#include "fem/tolerance_trial.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "tests/fem/rooms.h"
+
+namespace interflect::fem {
+namespace {
+
+using test::Room;
+
+constexpr double seconds_a_pair = 20e-6, tolerance = 1e-3;
+
+/// Takes its time over every pair.  Rows miss their tolerance threefold in the first pass and meet it in the second, by
+/// entries (a, b) with a + b even; the others are exact.
+class Slow final : public FormFactorMethod {
+ public:
+  Slow(double relative, double area, std::size_t elements)
+      : bound_(1.5 * relative * area / static_cast<double>(elements)) {}
+  std::string name() const override { return "slow"; }
+  Granularity granularity() const override { return Granularity::pair; }
+  PairCounts exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
+                      const Run&) const override {
+    for (Index a = rows.first; a < rows.first + rows.count; ++a)
+      for (Index b = std::max(columns.first, a + 1); b < columns.first + columns.count; ++b) {
+        for (const auto start = std::chrono::steady_clock::now();
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds_a_pair;) {
+        }
+        sink.add(a, b, {bound_, 0, (a + b) % 2 == 0 ? bound_ : 0});
+      }
+    return {};
+  }
+
+ private:
+  double bound_;
+};
+
+struct Trial {
+  double seconds, of_all_pairs_twice;
+};
+Trial trial(AgainPart part, double relative_factor = 1) {
+  Room room;
+  room.box({0, 0, 0}, {1, 1, 1}, 6);
+  const auto scene = room.finish();
+  const double n = static_cast<double>(room.patches.size());
+  const MethodMaker make = [&](double relative) {
+    return std::make_unique<Slow>(relative_factor * relative, room.patches[0].area, room.patches.size());
+  };
+  core::LocalRun run(1, 2);
+  return {seconds_of_later_passes(make, tolerance, room.patches, part, run.get()), n * n * seconds_a_pair};
+}
+
+// Pairs that two rows share are done once where whole rows are done, and half of the pairs, but twice, by entries.  The
+// upper limit leaves room for a machine that has other work.
+TEST(ToleranceTrial, tells_the_time_of_later_passes) {
+  for (const AgainPart part : {AgainPart::rows, AgainPart::entries}) {
+    const Trial of_second = trial(part);
+    EXPECT_GE(of_second.seconds, 0.45 * of_second.of_all_pairs_twice);
+    EXPECT_LE(of_second.seconds, 1.5 * of_second.of_all_pairs_twice);
+  }
+}
+
+// Sixteen times as inaccurate: two passes more.
+TEST(ToleranceTrial, counts_every_pass) {
+  const Trial of_second = trial(AgainPart::rows), of_fourth = trial(AgainPart::rows, 16);
+  EXPECT_NEAR(of_fourth.seconds / of_second.seconds, 3, 1);
+}
+
+TEST(ToleranceTrial, says_nothing_where_rows_meet_their_tolerance_at_once) {
+  EXPECT_EQ(trial(AgainPart::entries, 0.25).seconds, 0);
+}
+
+}  // namespace
+}  // namespace interflect::fem
