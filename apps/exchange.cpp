@@ -107,7 +107,7 @@ void write_fields(const std::filesystem::path& file, const ThermalExchange& exch
 
 #ifdef INTERFLECT_WITH_VTK
 /// Temperatures are far from 0 and near each other.
-visual::Range range_of(std::span<const double> values) {
+visual::Range span_of(std::span<const double> values) {
   visual::Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double value : values)
     if (!std::isnan(value)) range = {std::min(range.low, value), std::max(range.high, value)};
@@ -120,7 +120,7 @@ void write_pictures(const std::filesystem::path& folder, const scene::Scene& sce
   const mesh::ElementMesh& mesh = exchange.solution.mesh;
   const std::vector<double> temperature = of_elements(exchange, &ThermalState::temperature);
   write_element_picture(*display, folder / "temperature.png", scene, mesh, temperature,
-                        {.title = "temperature [K]", .caption = {}, .range = range_of(temperature)});
+                        {.title = "temperature [K]", .caption = {}, .range = span_of(temperature)});
   write_element_picture(*display, folder / "heat_flux.png", scene, mesh,
                         of_elements(exchange, &ThermalState::heat_flux),
                         {.title = "net heat flux [W/m2]", .caption = {}, .map = results::ColourMap::blue_white_red});
