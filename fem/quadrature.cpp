@@ -126,6 +126,7 @@ RulePair rules_of(int points) {
 }
 
 Vec3 point_on(std::span<const Vec3> ring, double u, double v) {
+  if (ring.size() == 2) return ring[0] + u * (ring[1] - ring[0]);
   if (ring.size() == 3) return ring[0] + u * (ring[1] - ring[0]) + v * (ring[2] - ring[0]);
   const Vec3 along_u = ring[1] - ring[0], along_v = ring[3] - ring[0];
   return ring[0] + u * along_u + v * along_v + (u * v) * ((ring[2] - ring[1]) - along_v);
@@ -133,6 +134,7 @@ Vec3 point_on(std::span<const Vec3> ring, double u, double v) {
 
 double jacobian(std::span<const Vec3> ring, double u, double v) {
   const Vec3 along_u = ring[1] - ring[0];
+  if (ring.size() == 2) return along_u.norm();
   if (ring.size() == 3) return along_u.cross(ring[2] - ring[0]).norm();
   const Vec3 along_v = ring[3] - ring[0], twist = (ring[2] - ring[1]) - along_v;
   return (along_u + v * twist).cross(along_v + u * twist).norm();

@@ -49,10 +49,10 @@ struct RulePair {
 /// to the next positive rule; 1 <= points <= 4.
 RulePair rules_of(int points);
 
-/// Position at (u, v): affine on three corners, bilinear on four, as mesh::ElementPoint counts them.
+/// Position at (u, v): affine on two corners (by u alone) and three, bilinear on four, as mesh::ElementPoint counts them.
 Vec3 point_on(std::span<const Vec3> ring, double u, double v);
 
-/// |d position / du x d position / dv| [m²]; on a triangle twice its area.
+/// |d position / du x d position / dv| [m²]; on a triangle twice its area; on a segment its length [m].
 ///
 /// On a planar quad the bilinear terms of the product vanish, so that it is linear in (u, v) and even one Gauss node
 /// has the exact area.

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "fem/galerkin.h"
+#include "fem/space/space.h"
+#include "tests/fem/rooms.h"
+
+/// Flatland by Galerkin's method, solved directly.
+namespace interflect::fem::test {
+
+/// Entries of any unknowns.
+class BlockSink final : public ExchangeSink {
+ public:
+  explicit BlockSink(Index unknowns) : K(Eigen::MatrixXd::Zero(unknowns, unknowns)) {}
+  void add(Index a, Index b, const ExchangeEntry& entry) override { K(a, b) = K(b, a) = entry.K; }
+  Eigen::MatrixXd K;
+};
+
+/// Coefficients of B = E + rho H, with one reflectance for all.
+inline Eigen::VectorXd solved_in_flatland(const Space& space, double rho, const Space::Field& exitance,
+                                          int points_a_side) {
+  BlockSink sink(space.layout().unknowns());
+  core::LocalRun run(1, 2);
+  galerkin(space, FlatlandKernel(), SegmentPairRule(points_a_side), sink, run.get());
+  const Eigen::Map<const Eigen::VectorXd> G(space.gram().data(), sink.K.rows());
+  const Eigen::MatrixXd A =
+      Eigen::MatrixXd::Identity(sink.K.rows(), sink.K.rows()) - rho * (G.cwiseInverse().asDiagonal() * sink.K).eval();
+  return A.partialPivLu().solve(space.project(exitance, space.order() + 1));
+}
+
+}  // namespace interflect::fem::test

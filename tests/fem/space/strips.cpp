@@ -1,0 +1,170 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "fem/collocation.h"
+#include "tests/fem/space/flatland.h"
+
+namespace interflect::fem {
+namespace {
+
+/// Two strips of width 1, 0.5 apart, rho = 0.8 both, E = 1 on the first.
+constexpr double gap = .5, rho = .8;
+
+/// Of so many segments a strip.
+std::vector<Panel> strips(int n) {
+  std::vector<Panel> panels;
+  for (int k = 0; k < n; ++k) panels.push_back(segment_panel({double(k) / n, 0, 0}, {double(k + 1) / n, 0, 0}));
+  for (int k = 0; k < n; ++k) panels.push_back(segment_panel({double(k + 1) / n, gap, 0}, {double(k) / n, gap, 0}));
+  return panels;
+}
+bool is_first(const Vec3& x) { return x.y() < .5 * gap; }
+double exitance(const Vec3& x) { return is_first(x) ? 1 : 0; }
+
+/// By Nystrom's method with Gauss points on either strip, which converges exponentially: to rounding here.
+class Exact {
+ public:
+  Exact() {
+    const Rule rule = gauss_legendre(points);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(2 * points, 2 * points);
+    Eigen::VectorXd e = Eigen::VectorXd::Zero(2 * points);
+    e.head(points).setOnes();
+    for (int i = 0; i < points; ++i)
+      for (int j = 0; j < points; ++j) {
+        const double k = rho * weight(rule, j) * strip_kernel(rule[std::size_t(i)].u - rule[std::size_t(j)].u);
+        A(i, points + j) -= k;
+        A(points + i, j) -= k;
+      }
+    B_ = A.partialPivLu().solve(e);
+    rule_ = rule;
+  }
+  double operator()(const Vec3& x) const {
+    double sum = exitance(x);
+    const Index other = is_first(x) ? points : 0;
+    for (int j = 0; j < points; ++j)
+      sum += rho * weight(rule_, j) * strip_kernel(x.x() - rule_[std::size_t(j)].u) * B_[other + j];
+    return sum;
+  }
+
+ private:
+  static constexpr int points = 60;
+  static double weight(const Rule& rule, int j) { return rule[std::size_t(j)].weight; }
+  static double strip_kernel(double dx) { return .5 * gap * gap / std::pow(gap * gap + dx * dx, 1.5); }
+  Eigen::VectorXd B_;
+  Rule rule_;
+};
+const Exact& exact() {
+  static const Exact solution;
+  return solution;
+}
+
+constexpr int inner_points = 14;
+
+/// What is told of a solution, as in the table: in L2 over the second strip, largest at nodes, largest of the iterated
+/// one, and of the second strip's integral.
+struct Errors {
+  double L2, nodal, iterated, functional;
+};
+
+/// (f_h - f) and its square, integrated over the second strip.
+void measure_second_strip(const Space& space, const Eigen::VectorXd& c, Errors& errors) {
+  double square = 0, integral = 0;
+  for (Index i = std::ssize(space.panels()) / 2; i < std::ssize(space.panels()); ++i) {
+    const PanelNodes at = space.nodes(i, 8);
+    const Eigen::VectorXd mine = at.values * c.segment(space.first(i), space.functions(i));
+    for (std::size_t k = 0; k < at.weight.size(); ++k) {
+      const double difference = mine[static_cast<Index>(k)] - exact()(at.position[k]);
+      square += at.weight[k] * difference * difference;
+      integral += at.weight[k] * difference;
+    }
+  }
+  errors.L2 = std::sqrt(square);
+  errors.functional = std::abs(integral);
+}
+
+Errors errors_of(const Space& space, const Eigen::VectorXd& c) {
+  Errors errors{};
+  measure_second_strip(space, c, errors);
+  const FlatlandKernel kernel;
+  std::vector<PanelNodes> sources;
+  for (Index j = 0; j < std::ssize(space.panels()); ++j) sources.push_back(space.nodes(j, inner_points));
+  for (Index i = 0; i < std::ssize(space.panels()); ++i) {
+    const PanelNodes nodes = space.nodes(i, space.order() + 1), fine = space.nodes(i, 5);
+    const auto own = c.segment(space.first(i), space.functions(i));
+    for (std::size_t k = 0; k < nodes.weight.size(); ++k)
+      errors.nodal = std::max(errors.nodal,
+                              std::abs(nodes.values.row(static_cast<Index>(k)).dot(own) - exact()(nodes.position[k])));
+    for (const Vec3& x : fine.position) {
+      double B = exitance(x);
+      for (Index j = 0; j < std::ssize(space.panels()); ++j) {
+        const PanelNodes& at = sources[static_cast<std::size_t>(j)];
+        const Eigen::VectorXd b = at.values * c.segment(space.first(j), space.functions(j));
+        for (std::size_t l = 0; l < at.weight.size(); ++l)
+          B += rho * at.weight[l] * kernel(x, space.panel(i).normal, at.position[l], space.panel(j).normal) *
+               b[static_cast<Index>(l)];
+      }
+      errors.iterated = std::max(errors.iterated, std::abs(B - exact()(x)));
+    }
+  }
+  return errors;
+}
+
+Errors by_galerkin(int n, int order) {
+  const Space space(strips(n), order);
+  return errors_of(space, test::solved_in_flatland(
+                              space, rho, [](Index, const Vec3& x) { return exitance(x); }, inner_points));
+}
+
+Errors by_collocation(int n, int order) {
+  const Space space(strips(n), order);
+  core::LocalRun run(1, 2);
+  const Collocation T(space, FlatlandKernel(), inner_points, run);
+  const Index unknowns = space.layout().unknowns();
+  solvers::ColumnMatrix rows(unknowns, unknowns);
+  T.rows(0, unknowns, rows);
+  Eigen::VectorXd e(unknowns);
+  for (Index a = 0; a < unknowns; ++a) e[a] = exitance(T.node(a));
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(unknowns, unknowns) - rho * rows;
+  return errors_of(space, T.coefficients(A.partialPivLu().solve(e)));
+}
+
+struct Row {
+  int order;
+  double L2, nodal, iterated, functional;  ///< orders
+  double L2_at_32, functional_at_32;       ///< errors
+};
+
+/// Orders from n = 16 to 32; where rounding is reached before, from the last pair of meshes above it.
+void expect_table(Errors (*solve)(int n, int order), const Row& row) {
+  const std::array<Errors, 4> at{solve(4, row.order), solve(8, row.order), solve(16, row.order), solve(32, row.order)};
+  const auto order = [&](double Errors::*what) {
+    std::size_t last = 3;
+    while (last > 1 && at[last].*what < 2e-13) --last;
+    return std::log2(at[last - 1].*what / at[last].*what);
+  };
+  EXPECT_NEAR(order(&Errors::L2), row.L2, .05) << row.order;
+  EXPECT_NEAR(order(&Errors::nodal), row.nodal, .05) << row.order;
+  EXPECT_NEAR(order(&Errors::iterated), row.iterated, .05) << row.order;
+  EXPECT_NEAR(order(&Errors::functional), row.functional, .05) << row.order;
+  EXPECT_NEAR(at[3].L2 / row.L2_at_32, 1, 1e-3) << row.order;
+  EXPECT_NEAR(at[3].functional, row.functional_at_32, 1e-3 * row.functional_at_32 + 1e-14) << row.order;
+}
+
+// Nodes are the Gauss points; p = 1 has order 3 there by Galerkin's method, and 4 by collocation.
+TEST(FlatlandStrips, orders_of_galerkin_are_those_of_the_table) {
+  expect_table(by_galerkin, {0, 1, 2, 2, 2, 5.882e-3, 3.720e-5});
+  expect_table(by_galerkin, {1, 2, 2.98, 4, 4, 7.553e-5, 6.024e-9});
+  expect_table(by_galerkin, {2, 3, 4.01, 6, 6, 6.549e-7, 4.734e-13});
+}
+
+TEST(FlatlandStrips, orders_of_collocation_at_gauss_points_are_those_of_the_table) {
+  expect_table(by_collocation, {0, 1, 1.99, 2, 2, 5.883e-3, 9.906e-5});
+  expect_table(by_collocation, {1, 2, 4, 4, 4, 7.553e-5, 1.145e-8});
+  expect_table(by_collocation, {2, 3, 6.01, 6.01, 6.03, 6.550e-7, 6.275e-13});
+}
+
+}  // namespace
+}  // namespace interflect::fem
