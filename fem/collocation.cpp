@@ -1,12 +1,33 @@
 #include "fem/collocation.h"
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "core/error.h"
 
 namespace interflect::fem {
 
-Collocation::Collocation(const Space& space, const Kernel& kernel, int points, Run& run)
+namespace {
+
+/// As many as there are functions.
+Rule nodes_of(CollocationNodes nodes, int order) {
+  if (nodes == CollocationNodes::gauss_points) return gauss_legendre(order + 1);
+  const double inner = 0.5 - 0.5 / std::sqrt(5.0);
+  switch (order) {
+    case 1:
+      return {{0, 0, 0}, {1, 0, 0}};
+    case 2:
+      return {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}};
+    case 3:
+      return {{0, 0, 0}, {inner, 0, 0}, {1 - inner, 0, 0}, {1, 0, 0}};
+    default:
+      throw core::PreconditionError("Collocation: an order of 1 or more expected at vertices");
+  }
+}
+
+}  // namespace
+
+Collocation::Collocation(const Space& space, CollocationNodes where, const Kernel& kernel, int points, Run& run)
     : space_(space),
       T_(solvers::ColumnMatrix::Zero(space.layout().unknowns(), space.layout().unknowns())),
       ones_(static_cast<std::size_t>(space.layout().unknowns()), 1.0),
@@ -14,7 +35,7 @@ Collocation::Collocation(const Space& space, const Kernel& kernel, int points, R
   const Index count = std::ssize(space.panels());
   for (Index i = 0; i < count; ++i) {
     if (space.panel(i).corners != 2) throw core::PreconditionError("Collocation: segments expected");
-    const PanelNodes at = space.nodes(i, gauss_legendre(space.order() + 1));
+    const PanelNodes at = space.nodes(i, nodes_of(where, space.order()));
     nodes_.insert(nodes_.end(), at.position.begin(), at.position.end());
     to_coefficients_.push_back(at.values.inverse());
   }
@@ -37,7 +58,10 @@ Collocation::Collocation(const Space& space, const Kernel& kernel, int points, R
 
 void Collocation::apply(solvers::ConstColumns b, solvers::Columns out, Run&) const { out.noalias() = T_ * b; }
 
-void Collocation::rows(Index first, Index count, solvers::Columns out) const { out = T_.middleRows(first, count); }
+void Collocation::rows(Index first, Index count, solvers::Columns out) const {
+  out = T_.middleRows(first, count);
+  evaluated_.fetch_add(count, std::memory_order_relaxed);
+}
 
 Eigen::VectorXd Collocation::coefficients(const Eigen::VectorXd& at_nodes) const {
   Eigen::VectorXd c(at_nodes.size());

@@ -1,10 +1,19 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+
 #include "fem/kernel.h"
 #include "fem/space/space.h"
 #include "solvers/transport_operator.h"
 
 namespace interflect::fem {
+
+/// Where the equation holds on a panel.
+enum class CollocationNodes : std::uint8_t {
+  gauss_points,  ///< one: the centroid; with order + 1 of them values there gain orders (docs/finite_elements.md)
+  vertices       ///< both ends, and Lobatto's points between them; order 1 or more
+};
 
 /// Point collocation: the equation holds at as many nodes of a panel as it has functions, and unknowns are the values
 /// there,
@@ -14,9 +23,9 @@ namespace interflect::fem {
 /// with the Lagrange polynomials l_b of the nodes.  G is the identity; T is not symmetric.
 class Collocation final : public solvers::TransportOperator, public solvers::RowAccess {
  public:
-  /// Nodes at the Gauss points of segments.
   /// @param points  of the inner integrals, by Gauss rules
-  Collocation(const Space& space, const Kernel& kernel, int points, Run& run);
+  /// @throws core::PreconditionError  panels that are no segments; vertices with order 0
+  Collocation(const Space& space, CollocationNodes nodes, const Kernel& kernel, int points, Run& run);
 
   const solvers::Layout& layout() const override { return space_.layout(); }
   bool symmetric() const override { return false; }
@@ -25,7 +34,7 @@ class Collocation final : public solvers::TransportOperator, public solvers::Row
   std::span<const double> self() const override { return self_; }
   const solvers::RowAccess* rows() const override { return this; }
   void rows(Index first, Index count, solvers::Columns out) const override;
-  Index evaluated() const override { return 0; }
+  Index evaluated() const override { return evaluated_.load(std::memory_order_relaxed); }
 
   const Vec3& node(Index unknown) const { return nodes_[static_cast<std::size_t>(unknown)]; }
   /// Values at the nodes of a panel to its coefficients in the space, and of all panels.
@@ -37,6 +46,7 @@ class Collocation final : public solvers::TransportOperator, public solvers::Row
   std::vector<Eigen::MatrixXd> to_coefficients_;  ///< of each panel: the inverse of N_a at its nodes
   solvers::ColumnMatrix T_;
   std::vector<double> ones_, self_;
+  mutable std::atomic<Index> evaluated_{0};
 };
 
 }  // namespace interflect::fem

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/error.h"
 #include "fem/collocation.h"
+#include "solvers/solver.h"
 #include "tests/fem/space/flatland.h"
 
 namespace interflect::fem {
@@ -118,17 +120,32 @@ Errors by_galerkin(int n, int order) {
                               space, rho, [](Index, const Vec3& x) { return exitance(x); }, inner_points));
 }
 
-Errors by_collocation(int n, int order) {
-  const Space space(strips(n), order);
-  core::LocalRun run(1, 2);
-  const Collocation T(space, FlatlandKernel(), inner_points, run);
-  const Index unknowns = space.layout().unknowns();
+/// Values at the nodes.
+Eigen::VectorXd solved(const Collocation& T) {
+  const Index unknowns = T.layout().unknowns();
   solvers::ColumnMatrix rows(unknowns, unknowns);
   T.rows(0, unknowns, rows);
   Eigen::VectorXd e(unknowns);
   for (Index a = 0; a < unknowns; ++a) e[a] = exitance(T.node(a));
   const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(unknowns, unknowns) - rho * rows;
-  return errors_of(space, T.coefficients(A.partialPivLu().solve(e)));
+  return A.partialPivLu().solve(e);
+}
+
+Errors by_collocation(int n, int order) {
+  const Space space(strips(n), order);
+  core::LocalRun run(1, 2);
+  const Collocation T(space, CollocationNodes::gauss_points, FlatlandKernel(), inner_points, run);
+  return errors_of(space, T.coefficients(solved(T)));
+}
+
+double largest_error_at_vertices(int n, int order) {
+  const Space space(strips(n), order);
+  core::LocalRun run(1, 2);
+  const Collocation T(space, CollocationNodes::vertices, FlatlandKernel(), inner_points, run);
+  const Eigen::VectorXd B = solved(T);
+  double largest = 0;
+  for (Index a = 0; a < B.size(); ++a) largest = std::max(largest, std::abs(B[a] - exact()(T.node(a))));
+  return largest;
 }
 
 struct Row {
@@ -164,6 +181,36 @@ TEST(FlatlandStrips, orders_of_collocation_at_gauss_points_are_those_of_the_tabl
   expect_table(by_collocation, {0, 1, 1.99, 2, 2, 5.883e-3, 9.906e-5});
   expect_table(by_collocation, {1, 2, 4, 4, 4, 7.553e-5, 1.145e-8});
   expect_table(by_collocation, {2, 3, 6.01, 6.01, 6.03, 6.550e-7, 6.275e-13});
+}
+
+// Interpolation at vertices integrates polynomials of degree 1 and no more, where that at Gauss points has degree 3; with
+// the middle, Simpson's rule, degree 3.
+TEST(FlatlandStrips, collocation_at_vertices_gains_less) {
+  EXPECT_NEAR(std::log2(largest_error_at_vertices(16, 1) / largest_error_at_vertices(32, 1)), 2, .05);
+  EXPECT_NEAR(std::log2(largest_error_at_vertices(16, 2) / largest_error_at_vertices(32, 2)), 4, .05);
+}
+
+TEST(FlatlandStrips, collocation_of_constants_has_no_vertices) {
+  const Space space(strips(2), 0);
+  core::LocalRun run(1, 2);
+  EXPECT_THROW(Collocation(space, CollocationNodes::vertices, FlatlandKernel(), 4, run), core::PreconditionError);
+}
+
+// A solver that knows nothing of light gives the same: G is the identity, K is not symmetric.
+TEST(FlatlandStrips, collocation_is_an_operator_that_solvers_take) {
+  const Space space(strips(8), 1);
+  core::LocalRun run(1, 2);
+  const Collocation T(space, CollocationNodes::gauss_points, FlatlandKernel(), inner_points, run);
+  solvers::ColumnMatrix e(T.layout().unknowns(), 1);
+  for (Index a = 0; a < e.rows(); ++a) e(a, 0) = exitance(T.node(a));
+  const solvers::Reflection R(solvers::ColumnMatrix::Constant(e.rows(), 1, rho));
+  const Eigen::VectorXd expected = solved(T);
+  for (const std::string& name : solvers::solver_names()) {
+    solvers::SolverState state{e, 0};
+    const auto report = solvers::make_solver(name)->advance({T, R, e}, state, {1e-13, 1000}, run);
+    EXPECT_TRUE(report.converged()) << name;
+    EXPECT_LT((state.x.col(0) - expected).cwiseAbs().maxCoeff(), 1e-11) << name;
+  }
 }
 
 }  // namespace
