@@ -33,6 +33,17 @@ std::optional<Quantity> quantity_of(const std::string& text) {
   }
 }
 
+/// A number in a range: not nan, and no "-5" that an unsigned option would take for a large one.
+struct Within : CLI::Validator {
+  Within(double low, double high) : Validator(core::format("in [%g, %g]", low, high)) {
+    func_ = [=](const std::string& text) {
+      const auto number = quantity_of(text);
+      const bool fine = number && number->unit.empty() && number->value >= low && number->value <= high;
+      return fine ? std::string() : core::format("Value %s not in range %g to %g", text.c_str(), low, high);
+    };
+  }
+};
+
 /// Bytes from "4GB", "512 MB", "1e9": powers of ten, as on a label.
 struct Memory : CLI::Validator {
   Memory() : Validator("SIZE") {
@@ -109,11 +120,12 @@ void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples
                 const std::string& when_0 = "") {
   CLI::Option* tolerance =
       command.add_option("--tolerance", row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
-          ->check(CLI::Range(1e-9, 0.5))
+          ->check(Within(1e-9, 0.5))
           ->capture_default_str();
   if (!when_0.empty()) tolerance->default_str(when_0);
   command
       .add_option("--samples", samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
+      ->check(Within(0, 1e15))
       ->capture_default_str();
   command.add_option("--resolution", resolution, "Cells across a hemicube or a plane")
       ->check(CLI::Range(2, 8192))
@@ -153,13 +165,13 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
       ->check(CLI::Range(4, 65536))
       ->capture_default_str();
   command.add_option("--quadrature-tolerance", s.quadrature_tolerance, "Relative error of an unoccluded form factor")
-      ->check(CLI::Range(1e-14, 0.5))
+      ->check(Within(1e-14, 0.5))
       ->capture_default_str();
   command.add_option("--solver", s.solver, "Linear solver")
       ->check(CLI::IsMember(solvers::solver_names()))
       ->capture_default_str();
   command.add_option("--solver-tolerance", s.stopping.tolerance, "Relative residual at which it stops")
-      ->check(CLI::Range(1e-15, 0.1))
+      ->check(Within(1e-15, 0.1))
       ->capture_default_str();
   command.add_option("--intersector", s.intersector, "Ray caster; brute is slow, double precision, for checking")
       ->check(CLI::IsMember(raycast::ray_caster_names()))
@@ -168,7 +180,7 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
   command
       .add_option("--drop-below", s.drop_below,
                   "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(Within(0.0, 1.0))
       ->capture_default_str();
   add_effort(command, s.row_tolerance, s.samples, s.resolution, when_no_rows);
   command.add_flag_callback(
@@ -302,7 +314,7 @@ void add_compare_form_factors(CLI::App& app, Command& chosen) {
   command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: that of solve")
       ->check(Length());
   command->add_option("--tolerance", options->tolerance, "Largest sum of a row's errors in the reference")
-      ->check(CLI::Range(1e-9, 0.5))
+      ->check(Within(1e-9, 0.5))
       ->capture_default_str();
 }
 
@@ -315,7 +327,7 @@ void add_exchange(CLI::App& app, Command& chosen) {
   add_scene(*command, options->scene);
   command->add_option("-o,--out", options->out, "Folder for the results")->required();
   command->add_option("--environment", options->environment, "Temperature of what openings look at [K]")
-      ->check(CLI::Range(0.0, 1e5))
+      ->check(Within(0.0, 1e5))
       ->capture_default_str();
   command
       ->add_option("--element-size", options->settings.element_size,
@@ -326,7 +338,7 @@ void add_exchange(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command
       ->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
-      ->check(CLI::Range(1e-14, 0.5))
+      ->check(Within(1e-14, 0.5))
       ->capture_default_str();
   command->add_flag("!--no-pictures", options->pictures, "Write no PNG");
   add_closure(*command, options->settings.closure);

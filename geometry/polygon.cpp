@@ -54,4 +54,15 @@ double relative_planarity_error(const PlanarPolygon& polygon) {
   return largest / box_of(polygon.outer).diagonal().norm();
 }
 
+PlanarPolygon flattened(const PlanarPolygon& polygon) {
+  const Vec3 normal = plane_of(polygon.outer).normal, on_plane = mean_of(polygon.outer);
+  PlanarPolygon flat = polygon;
+  const auto flatten = [&](Ring& ring) {
+    for (Vec3& x : ring) x -= normal.dot(x - on_plane) * normal;
+  };
+  flatten(flat.outer);
+  for (Ring& hole : flat.holes) flatten(hole);
+  return flat;
+}
+
 }  // namespace interflect::geometry

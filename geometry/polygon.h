@@ -46,6 +46,9 @@ double relative_planarity_error(const PlanarPolygon& polygon);
 /// A polygon counts as planar if its `relative_planarity_error` is at most this.
 inline constexpr double planarity_tolerance = 1e-6;
 
+/// Every corner moved onto `plane_of(outer)`, along its normal.
+PlanarPolygon flattened(const PlanarPolygon& polygon);
+
 /// Throws Defect in one sentence if the polygon has fewer than three corners, a coordinate that is not finite, no area,
 /// is not planar, crosses itself, or has a hole that is not inside.
 void require_valid(const PlanarPolygon& polygon);

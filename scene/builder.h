@@ -20,6 +20,8 @@ class SceneBuilder {
   Scene& scene() { return scene_; }  ///< for what has no method here: cameras, sensors, notes
 
   MaterialId add_material(Material material);
+  /// A polygon that is not flat beyond rounding, but counts as planar, is flattened: else its own facets would hide
+  /// parts of it.  That is noted among the repairs of the finished scene.
   /// @throws geometry::Defect  if it is not a planar polygon with an area
   SurfaceId add_polygon(const std::string& name, const geometry::PlanarPolygon& polygon, MaterialId material);
   /// Triangles of a mesh as one surface; none may be degenerate.
@@ -39,6 +41,8 @@ class SceneBuilder {
 
  private:
   Scene scene_;
+  std::size_t flattened_ = 0;
+  double furthest_ = 0;  ///< that a corner of them was moved [m]
 };
 
 }  // namespace interflect::scene

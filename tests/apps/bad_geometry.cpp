@@ -224,5 +224,22 @@ TEST(BadGeometry, what_coordinates_do_not_resolve_is_refused_or_dropped) {
   EXPECT_NE(run.err.find("1 degenerate face dropped"), std::string::npos) << run.err;
 }
 
+// What a printer of digits leaves of a square: its two halves tilt by as much as it is off its plane, and one would
+// hide the other, or half of the view.
+TEST(BadGeometry, polygons_that_are_flat_but_for_rounding_do_not_hide_themselves) {
+  const TemporaryFolder folder;
+  for (const double off : {1e-11, 1e-9, 1e-7, 2e-6, -1e-7})
+    for (const char* method : {"analytic", "hybrid", "gauss-lambert"}) {
+      const std::vector<Vec3> high{{0, 0, 1}, {0, 1, 1}, {1, 1, 1 + off}, {1, 0, 1}};
+      const Outcome run = interflect({"view-factors", folder.write("mesh.obj", obj_of({square, high})), "-o",
+                                      folder / "F.csv", "--form-factors", method});
+      EXPECT_EQ(run.status, 0) << run.err;
+      EXPECT_NE(run.err.find("1 polygon flattened, by "), std::string::npos) << run.err;
+      const TableEntry F = entries_of(read_file(folder / "F.csv")).at({"0", "1"});
+      EXPECT_NEAR(F.F, 0.19982489569838738, F.error + .5 * std::abs(off)) << method << " " << off;
+      EXPECT_LT(F.error, 1e-5) << method << " " << off;
+    }
+}
+
 }  // namespace
 }  // namespace interflect::test

@@ -50,6 +50,15 @@ TEST(BadInput, no_such_command_or_option) {
     expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--seed", seed}, "--seed");
 }
 
+TEST(BadInput, numbers_that_are_none_or_out_of_range) {
+  const std::string scene = shipped_scene("cube");
+  for (const char* tolerance : {"nan", "-1", "0", "1e-3x"})
+    expect_refused({"view-factors", scene, "-o", "F.csv", "--tolerance", tolerance}, "--tolerance");
+  expect_refused({"solve", scene, "-o", "x", "--quadrature-tolerance", "nan"}, "--quadrature-tolerance");
+  expect_refused({"exchange", scene, "-o", "x", "--environment", "nan"}, "--environment");
+  expect_refused({"view-factors", scene, "-o", "F.csv", "--samples", "-5"}, "--samples");
+}
+
 TEST(BadInput, malformed_and_truncated_json) {
   expect_scene_refused("{ \"format\": ", "scene.json:1");
   expect_scene_refused("", "scene.json");

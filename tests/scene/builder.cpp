@@ -117,6 +117,25 @@ TEST(Scene, a_channel_without_weight_is_left_out_even_where_it_is_infinite) {
   EXPECT_EQ(scene.weigh(error), 0.5);
 }
 
+// With a hole, which is moved along.
+TEST(Builder, flattens_what_is_flat_but_for_rounding_and_says_so) {
+  geometry::PlanarPolygon polygon{{{0, 0, 0}, {3, 0, 1e-6}, {3, 4, 0}, {0, 4, 1e-6}},
+                                  {{{1, 1, 0}, {1, 2, 0}, {2, 2, 0}}}};
+  for (const bool bent : {false, true}) {
+    SceneBuilder builder({"y"});
+    if (!bent) polygon.outer[1].z() = polygon.outer[3].z() = 0;
+    builder.add_polygon("p", polygon, builder.add_material(grey(0.5)));
+    const Scene scene = builder.finish("room");
+    polygon.outer[1].z() = polygon.outer[3].z() = 1e-6;
+    EXPECT_LT(geometry::relative_planarity_error(*scene.surfaces[0].outline), 1e-15);
+    const geometry::Plane plane = geometry::plane_of(scene.surfaces[0].outline->outer);
+    for (const Facet& facet : scene.facets)
+      for (const Vec3& p : facet.corner) EXPECT_LT(std::abs(plane.distance(p)), 1e-15);
+    ASSERT_EQ(scene.repairs.size(), bent ? 1u : 0u);
+    for (const Note& note : scene.repairs) EXPECT_EQ(note.message, "1 polygon flattened, by 5e-07 m at most");
+  }
+}
+
 TEST(Scene, flux_is_that_of_fronts_and_numbers_are_weighed) {
   SceneBuilder builder({"r", "g", "b"});
   Material lamp = grey(0.5);
