@@ -100,10 +100,24 @@ class PlyGuard {
     fail("the PLY type '" + shown_word(type) + "' is not known");
   }
 
+  [[noreturn]] void fail_cut(const Element& element) const {
+    fail("the data end within the elements '" + shown_word(element.name) + "'");
+  }
+
+  /// The next one with anything in it.
+  std::string_view next_line(const Element& element) {
+    while (at_ < bytes_.size()) {
+      const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+      const std::string_view line = bytes_.substr(at_, end - at_);
+      at_ = end + 1;
+      if (line.find_first_not_of(" \t\r") != std::string_view::npos) return line;
+    }
+    fail_cut(element);
+  }
+
   /// Goes on by `count` values of `size` bytes that must be there.
   void skip(std::size_t count, std::size_t size, const Element& element) {
-    if (count > (bytes_.size() - at_) / size)
-      fail("the data end within the elements '" + shown_word(element.name) + "'");
+    if (count > (bytes_.size() - at_) / size) fail_cut(element);
     at_ += count * size;
   }
 
@@ -136,18 +150,18 @@ class PlyGuard {
 
   /// One line an element; a list has no more entries than its line has letters.
   void walk_text(const Element& element) {
-    for (std::size_t k = 0; k < element.count && at_ < bytes_.size(); ++k) {
-      const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
-      std::string_view rest = bytes_.substr(at_, end - at_);
-      at_ = end + 1;
+    for (std::size_t k = 0; k < element.count && !element.properties.empty(); ++k) {
+      std::string_view rest = next_line(element);
       for (const Property& p : element.properties) {
         double count = 0;
         const std::string_view word = next_word(rest);
+        if (word.empty()) fail_cut(element);
         if (p.count_size == 0) continue;
         std::from_chars(word.data(), word.data() + word.size(), count);
         if (!(count >= 0 && count <= static_cast<double>(rest.size())))
           fail("a list of the elements '" + shown_word(element.name) + "' promises more than its line holds");
-        for (std::size_t entry = 0; entry < static_cast<std::size_t>(count); ++entry) next_word(rest);
+        for (std::size_t entry = 0; entry < static_cast<std::size_t>(count); ++entry)
+          if (next_word(rest).empty()) fail_cut(element);
       }
     }
   }

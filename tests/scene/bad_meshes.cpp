@@ -147,6 +147,21 @@ TEST(BadMesh, gltf_accessors_stay_within_their_buffers) {
             "m.gltf: a sparse accessor changes more than it has");
 }
 
+// Cut anywhere but within the last number, which may be one of fewer digits.
+TEST(BadMesh, ply_texts_that_are_cut_are_refused) {
+  const std::string whole =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 1\n3 0 1 2\n3 0 2 3";
+  const std::size_t data = whole.find("end_header\n") + 11;
+  for (std::size_t length = data; length + 1 < whole.size(); ++length) {
+    const std::string said = said_of("m.ply", whole.substr(0, length));
+    EXPECT_TRUE(said.starts_with("m.ply: the data end within the elements '") ||
+                said.starts_with("m.ply: a list of ") || said.starts_with("m.ply: the header promises "))
+        << said << "\n"
+        << whole.substr(data, length - data);
+  }
+}
+
 TEST(BadMesh, ply_lists_stay_within_their_file) {
   const auto header = [](const std::string& format) {
     return "ply\nformat " + format + " 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n" +
