@@ -2,11 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <optional>
 
+#include "apps/option_texts.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/format.h"
@@ -17,89 +16,17 @@ namespace {
 
 constexpr const char* example_scene = "data/scenes/cornell_box.json";
 
-/// A number and what follows it.
-struct Quantity {
-  double value;
-  std::string unit;
-};
-
-std::optional<Quantity> quantity_of(const std::string& text) {
-  try {
-    std::size_t used = 0;
-    const double value = std::stod(text, &used);
-    return Quantity{value, text.substr(used)};
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
+CLI::Validator within(double low, double high) {
+  return {[=](std::string& text) { return outside(text, low, high); }, core::format("in [%g, %g]", low, high)};
 }
-
-/// A number in a range: not nan, and no "-5" that an unsigned option would take for a large one.
-struct Within : CLI::Validator {
-  Within(double low, double high) : Validator(core::format("in [%g, %g]", low, high)) {
-    func_ = [=](const std::string& text) {
-      const auto number = quantity_of(text);
-      const bool fine = number && number->unit.empty() && number->value >= low && number->value <= high;
-      return fine ? std::string() : core::format("Value %s not in range %g to %g", text.c_str(), low, high);
-    };
-  }
-};
-
-/// Bytes from "4GB", "512 MB", "1e9": powers of ten, as on a label.
-struct Memory : CLI::Validator {
-  Memory() : Validator("SIZE") {
-    func_ = [](std::string& text) {
-      auto size = quantity_of(text);
-      if (size) size->unit.erase(0, size->unit.find_first_not_of(' '));
-      for (const auto& [name, factor] : {std::pair{"", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}})
-        if (size && size->unit == name && size->value > 0) {
-          text = core::format("%.17g", size->value * factor);
-          return std::string();
-        }
-      return "'" + text + "' is not a size such as 4GB";
-    };
-  }
-};
-
-/// A length in metres above 0.
-struct Length : CLI::Validator {
-  Length() : Validator("METRES") {
-    func_ = [](std::string& text) {
-      const auto length = quantity_of(text);
-      const bool fine = length && length->unit.empty() && length->value > 0 && std::isfinite(length->value);
-      return fine ? std::string() : "'" + text + "' is not a number of metres above 0";
-    };
-  }
-};
-
-/// "1%" or "0.01".
-struct Fraction : CLI::Validator {
-  Fraction() : Validator("PART") {
-    func_ = [](std::string& text) {
-      const auto part = quantity_of(text);
-      if (!part || !(part->unit.empty() || part->unit == "%")) return "'" + text + "' is not a part such as 1% or 0.01";
-      const double value = part->value * (part->unit.empty() ? 1.0 : 0.01);
-      if (!(value > 0 && value < 1)) return "'" + text + "' is outside 0 .. 100 %";
-      text = core::format("%.17g", value);
-      return std::string();
-    };
-  }
-};
-
-/// 0 .. 2^64 - 1; the parser itself would take "-1" for the largest.
-struct Seed : CLI::Validator {
-  Seed() : Validator("NUMBER") {
-    func_ = [](std::string& text) {
-      std::uint64_t value = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error == std::errc() && end == text.data() + text.size()) return std::string();
-      return "'" + text + "' is not a whole number from 0 to 18446744073709551615";
-    };
-  }
-};
+CLI::Validator memory() { return {to_bytes, "SIZE"}; }
+CLI::Validator length() { return {no_length, "METRES"}; }
+CLI::Validator fraction() { return {to_fraction, "PART"}; }
+CLI::Validator seed() { return {no_seed, "NUMBER"}; }
 
 void add_common(CLI::App& app, CommonOptions& common) {
   app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")
-      ->check(Seed())
+      ->check(seed())
       ->capture_default_str();
   app.add_option("--threads", common.threads, "Threads to use (0: all); results do not depend on it")
       ->check(CLI::Range(0, 1024))
@@ -120,12 +47,12 @@ void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples
                 const std::string& when_0 = "") {
   CLI::Option* tolerance =
       command.add_option("--tolerance", row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
-          ->check(Within(1e-9, 0.5))
+          ->check(within(1e-9, 0.5))
           ->capture_default_str();
   if (!when_0.empty()) tolerance->default_str(when_0);
   command
       .add_option("--samples", samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
-      ->check(Within(0, 1e15))
+      ->check(within(0, 1e15))
       ->capture_default_str();
   command.add_option("--resolution", resolution, "Cells across a hemicube or a plane")
       ->check(CLI::Range(2, 8192))
@@ -151,9 +78,9 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
       .add_option(
           "--element-size", s.element_size,
           "Longest edge of an element [m]; default: for about 2 500 elements, more where small surfaces each need some")
-      ->check(Length());
+      ->check(length());
   command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")
-      ->transform(Memory())
+      ->transform(memory())
       ->default_str(core::format_bytes(s.max_memory));
   command.add_option("--form-factors", s.form_factors, "Form-factor method")
       ->check(CLI::IsMember(fem::form_factor_names()))
@@ -165,13 +92,13 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
       ->check(CLI::Range(4, 65536))
       ->capture_default_str();
   command.add_option("--quadrature-tolerance", s.quadrature_tolerance, "Relative error of an unoccluded form factor")
-      ->check(Within(1e-14, 0.5))
+      ->check(within(1e-14, 0.5))
       ->capture_default_str();
   command.add_option("--solver", s.solver, "Linear solver")
       ->check(CLI::IsMember(solvers::solver_names()))
       ->capture_default_str();
   command.add_option("--solver-tolerance", s.stopping.tolerance, "Relative residual at which it stops")
-      ->check(Within(1e-15, 0.1))
+      ->check(within(1e-15, 0.1))
       ->capture_default_str();
   command.add_option("--intersector", s.intersector, "Ray caster; brute is slow, double precision, for checking")
       ->check(CLI::IsMember(raycast::ray_caster_names()))
@@ -180,7 +107,7 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
   command
       .add_option("--drop-below", s.drop_below,
                   "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
-      ->check(Within(0.0, 1.0))
+      ->check(within(0.0, 1.0))
       ->capture_default_str();
   add_effort(command, s.row_tolerance, s.samples, s.resolution, when_no_rows);
   command.add_flag_callback(
@@ -223,7 +150,7 @@ void add_validate(CLI::App& app, Command& chosen) {
   add_scene(*command, options->solve.scene);
   add_radiosity(*command, options->solve);
   command->add_option("--accuracy", options->accuracy, "Relative standard error of each traced value, such as 1%")
-      ->transform(Fraction())
+      ->transform(fraction())
       ->default_str("1%");
   command->add_option("--elements", options->elements, "Elements to judge, a stratified choice")
       ->check(CLI::Range(1, 100000000))
@@ -252,7 +179,7 @@ void add_trace(CLI::App& app, Command& chosen) {
       ->required();
   command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv");
   command->add_option("--accuracy", options->accuracy, "Relative standard error of those estimates, such as 1%")
-      ->transform(Fraction())
+      ->transform(fraction())
       ->default_str("1%");
   command->add_option("--intersector", options->intersector, "Ray caster")
       ->check(CLI::IsMember(raycast::ray_caster_names()))
@@ -285,7 +212,7 @@ void add_view_factors(CLI::App& app, Command& chosen) {
   command
       ->add_option("--element-size", options->element_size,
                    "Longest edge of an element [m]; default: one element a face")
-      ->check(Length());
+      ->check(length());
   command->add_option("--units", options->geometry.unit, "Of the file's coordinates: m, cm, mm, ft, in");
   command->add_flag("--two-sided", options->geometry.two_sided, "Backs of faces have view factors too: thin plates");
   command->add_flag("--whole-groups", options->geometry.whole_groups,
@@ -312,9 +239,9 @@ void add_compare_form_factors(CLI::App& app, Command& chosen) {
   add_scene(*command, options->scene);
   command->add_option("-o,--out", options->out, "Folder for the table and the plot")->required();
   command->add_option("--element-size", options->element_size, "Longest edge of an element [m]; default: that of solve")
-      ->check(Length());
+      ->check(length());
   command->add_option("--tolerance", options->tolerance, "Largest sum of a row's errors in the reference")
-      ->check(Within(1e-9, 0.5))
+      ->check(within(1e-9, 0.5))
       ->capture_default_str();
 }
 
@@ -327,18 +254,18 @@ void add_exchange(CLI::App& app, Command& chosen) {
   add_scene(*command, options->scene);
   command->add_option("-o,--out", options->out, "Folder for the results")->required();
   command->add_option("--environment", options->environment, "Temperature of what openings look at [K]")
-      ->check(Within(0.0, 1e5))
+      ->check(within(0.0, 1e5))
       ->capture_default_str();
   command
       ->add_option("--element-size", options->settings.element_size,
                    "Longest edge of an element [m]; default: that of solve")
-      ->check(Length());
+      ->check(length());
   command->add_option("--form-factors", options->settings.form_factors, "Form-factor method")
       ->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
   command
       ->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
-      ->check(Within(1e-14, 0.5))
+      ->check(within(1e-14, 0.5))
       ->capture_default_str();
   command->add_flag("!--no-pictures", options->pictures, "Write no PNG");
   add_closure(*command, options->settings.closure);

@@ -12,6 +12,7 @@
 
 #include "core/random.h"
 #include "core/run.h"
+#include "core/seconds_since.h"
 #include "fem/assembly.h"
 #include "fem/row_errors.h"
 #include "mesh/uniform.h"
@@ -55,10 +56,6 @@ class Ignore final : public fem::ExchangeSink {
  public:
   void add(Index, Index, const fem::ExchangeEntry&) override {}
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Blocks of pairs anywhere in the matrix, up to `pairs` of them.
 fem::PairCounts some_pairs(const fem::FormFactorMethod& method, std::span<const scene::SurfacePatch> patches,
@@ -104,7 +101,7 @@ bool measure(const Case& c, double tolerance, const Run& run) {
   const auto method = fem::make_form_factor_method("analytic", {c.scene, mesh.patches(), *rays, 1, relative});
   const auto start = std::chrono::steady_clock::now();
   const fem::PairCounts counts = some_pairs(*method, mesh.patches(), 4e6, run);
-  const double seconds = seconds_since(start);
+  const double seconds = core::seconds_since(start);
   const auto pairs = static_cast<double>(counts.facing_away + counts.clear + counts.subtracted);
   std::printf(
       "%-22s %6td elements, %.1f million pairs (%2.0f %% away, %2.0f %% clear, %2.0f %% in doubt, %.1f points each): "
@@ -129,7 +126,7 @@ bool measure_threads(const Case& c, double tolerance) {
   const auto seconds = [&](Run& run) {
     const auto start = std::chrono::steady_clock::now();
     fem::assemble(*method, mesh.patches(), sink, run);
-    return seconds_since(start);
+    return core::seconds_since(start);
   };
   double of_one = seconds(one), of_two = seconds(two);
   for (int k = 0; k < 2; ++k) of_one = std::min(of_one, seconds(one)), of_two = std::min(of_two, seconds(two));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/format.h"
+#include "core/seconds_since.h"
 #include "fem/assembly.h"
 #include "fem/operator/dense_symmetric.h"
 #include "fem/row_errors.h"
@@ -63,10 +64,6 @@ std::vector<double> areas_of(std::span<const scene::SurfacePatch> patches) {
   return areas;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 void judge(const DenseSymmetric& K, const DenseSymmetric& exact, MethodScore& score) {
   const Index n = K.size();
   double area = 0;
@@ -99,8 +96,14 @@ std::vector<MethodScore> compare_methods(const FormFactorContext& context, doubl
     return make_form_factor_method("analytic", fine);
   };
   const ToleranceReport reference = assemble_to_tolerance(analytic, reference_tolerance, context.patches, exact, run);
-  MethodScore last{
-      "analytic", core::format("rows to %g: the reference", reference_tolerance), seconds_since(start), 0, 0, 0, 0, {}};
+  MethodScore last{"analytic",
+                   core::format("rows to %g: the reference", reference_tolerance),
+                   core::seconds_since(start),
+                   0,
+                   0,
+                   0,
+                   0,
+                   {}};
   last.stated_row_error = *std::max_element(reference.row_errors.begin(), reference.row_errors.end());
   last.pairs = reference.pairs;
 
@@ -115,7 +118,7 @@ std::vector<MethodScore> compare_methods(const FormFactorContext& context, doubl
     start = std::chrono::steady_clock::now();
     const auto method = make_form_factor_method(trial.method, settings);
     score.pairs = assemble(*method, context.patches, errors, run);
-    score.seconds = seconds_since(start);
+    score.seconds = core::seconds_since(start);
     const std::vector<double> stated = errors.all();
     score.stated_row_error = *std::max_element(stated.begin(), stated.end());
     judge(K, exact, score);

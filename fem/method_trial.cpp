@@ -1,9 +1,9 @@
 #include "fem/method_trial.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "core/random.h"
+#include "core/seconds_since.h"
 
 namespace interflect::fem {
 
@@ -13,10 +13,6 @@ class Discard final : public ExchangeSink {
  public:
   void add(Index, Index, const ExchangeEntry&) override {}
 };
-
-double since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 constexpr double longest = 2;  // [s] after which no more is tried
 
@@ -29,7 +25,7 @@ double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfaceP
   Discard sink;
   double pairs = 0;
   const auto start = std::chrono::steady_clock::now();
-  for (Index k = 0; k < blocks && since(start) <= time_left; ++k) {
+  for (Index k = 0; k < blocks && core::seconds_since(start) <= time_left; ++k) {
     run.throw_if_stopped("forecast");
     auto row = static_cast<Index>(random.next() * static_cast<double>(room)),
          column = static_cast<Index>(random.next() * static_cast<double>(room));
@@ -37,7 +33,7 @@ double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfaceP
     const PairCounts c = method.exchange({patches, row, count}, {patches, column, count}, sink, run);
     pairs += static_cast<double>(c.facing_away + c.clear + c.sampled + c.subtracted);
   }
-  return since(start) / std::max(pairs, 1.0);
+  return core::seconds_since(start) / std::max(pairs, 1.0);
 }
 
 /// Blocks as large as time allows: in large ones pairs share their proofs, and some pairs take a second each.
@@ -45,8 +41,9 @@ double by_blocks(const FormFactorMethod& method, std::span<const scene::SurfaceP
   const Index most = std::clamp<Index>(static_cast<Index>(patches.size()) / 16, 1, 48);
   const auto start = std::chrono::steady_clock::now();
   double seconds = 0;
-  for (Index count = std::min<Index>(most, 3); count <= most && since(start) <= 0.25 * longest; count *= 4)
-    seconds = by_blocks(method, patches, count, longest - since(start), run);
+  for (Index count = std::min<Index>(most, 3); count <= most && core::seconds_since(start) <= 0.25 * longest;
+       count *= 4)
+    seconds = by_blocks(method, patches, count, longest - core::seconds_since(start), run);
   return seconds;
 }
 
@@ -58,12 +55,12 @@ double by_rows(const FormFactorMethod& method, std::span<const scene::SurfacePat
   Discard sink;
   const auto start = std::chrono::steady_clock::now();
   int rows = 0;
-  for (; rows < most && since(start) <= longest; ++rows) {
+  for (; rows < most && core::seconds_since(start) <= longest; ++rows) {
     run.throw_if_stopped("forecast");
     const auto row = static_cast<Index>(random.next() * static_cast<double>(n));
     method.exchange({patches, row, 1}, {patches, 0, n}, sink, run);
   }
-  return since(start) / (0.5 * rows * static_cast<double>(n));
+  return core::seconds_since(start) / (0.5 * rows * static_cast<double>(n));
 }
 
 }  // namespace
@@ -82,7 +79,7 @@ double seconds_per_point(const PointViewFactors& factors, std::span<const measur
   std::vector<double> F(static_cast<std::size_t>(factors.elements())), error(F.size());
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < tried; ++k) factors(points[k * points.size() / tried], F, error);
-  return since(start) / static_cast<double>(tried);
+  return core::seconds_since(start) / static_cast<double>(tried);
 }
 
 }  // namespace interflect::fem

@@ -1,20 +1,18 @@
 #include "fem/tolerance_trial.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include "core/estimate.h"
 #include "core/random.h"
+#include "core/seconds_since.h"
 
 namespace interflect::fem {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr double longest = 2;  // [s] after which no more rows are tried
 constexpr Index most_rows = 64, most_entries = 384, neighbours = 8;
@@ -67,7 +65,7 @@ class Trial {
     const Clock::time_point start = Clock::now();
     for (int pass = 1; pass < most_passes && misses(); ++pass)
       exchange(pass, row, to_do_again(row, columns, sink), sink);
-    return scale * since(start);
+    return scale * core::seconds_since(start);
   }
 
  private:
@@ -134,7 +132,7 @@ double seconds_of_later_passes(const MethodMaker& make, double tolerance, std::s
   const Clock::time_point start = Clock::now();
   double seconds = 0;
   Index rows = 0, again = 0;
-  for (; rows < std::min(size, most_rows) && since(start) <= longest; ++rows) {
+  for (; rows < std::min(size, most_rows) && core::seconds_since(start) <= longest; ++rows) {
     const double of_row = trial.next_row();
     seconds += of_row;
     again += of_row > 0;

@@ -6,6 +6,7 @@
 
 #include "core/hemisphere.h"
 #include "core/random.h"
+#include "core/seconds_since.h"
 #include "fem/form_factor/counted_exchange.h"
 #include "fem/form_factor/orientation.h"
 
@@ -21,10 +22,6 @@ class Discard final : public ExchangeSink {
  public:
   void add(Index, Index, const ExchangeEntry&) override {}
 };
-
-double since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -152,7 +149,7 @@ double GlobalLines::trial(const Run& run) const {
     run.throw_if_stopped("forecast");
     shoot(begin, std::min(tried, begin + lines_a_block), found);
   }
-  const double lines = since(start) * static_cast<double>(lines_) / static_cast<double>(tried);
+  const double lines = core::seconds_since(start) * static_cast<double>(lines_) / static_cast<double>(tried);
 
   constexpr Index rows_tried = 8;
   Discard sink;
@@ -163,7 +160,7 @@ double GlobalLines::trial(const Run& run) const {
     add_row(a, found, sink);
     pairs += static_cast<double>(n - 1 - a);
   }
-  return lines + since(start_of_rows) * 0.5 * static_cast<double>(n) * static_cast<double>(n - 1) / pairs;
+  return lines + core::seconds_since(start_of_rows) * 0.5 * static_cast<double>(n) * static_cast<double>(n - 1) / pairs;
 }
 
 }  // namespace interflect::fem

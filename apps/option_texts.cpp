@@ -1,0 +1,72 @@
+#include "apps/option_texts.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "core/format.h"
+
+namespace interflect::apps {
+namespace {
+
+/// A number and what follows it.
+struct Quantity {
+  double value;
+  std::string unit;
+};
+
+std::optional<Quantity> quantity_of(const std::string& text) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(text, &used);
+    return Quantity{value, text.substr(used)};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::string outside(const std::string& text, double low, double high) {
+  const auto number = quantity_of(text);
+  const bool fine = number && number->unit.empty() && number->value >= low && number->value <= high;
+  return fine ? std::string() : core::format("Value %s not in range %g to %g", text.c_str(), low, high);
+}
+
+std::string to_bytes(std::string& text) {
+  auto size = quantity_of(text);
+  if (size) size->unit.erase(0, size->unit.find_first_not_of(' '));
+  for (const auto& [name, factor] : {std::pair{"", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}})
+    if (size && size->unit == name && size->value > 0) {
+      text = core::format("%.17g", size->value * factor);
+      return {};
+    }
+  return "'" + text + "' is not a size such as 4GB";
+}
+
+std::string no_length(const std::string& text) {
+  const auto length = quantity_of(text);
+  const bool fine = length && length->unit.empty() && length->value > 0 && std::isfinite(length->value);
+  return fine ? std::string() : "'" + text + "' is not a number of metres above 0";
+}
+
+std::string to_fraction(std::string& text) {
+  const auto part = quantity_of(text);
+  if (!part || !(part->unit.empty() || part->unit == "%")) return "'" + text + "' is not a part such as 1% or 0.01";
+  const double value = part->value * (part->unit.empty() ? 1.0 : 0.01);
+  if (!(value > 0 && value < 1)) return "'" + text + "' is outside 0 .. 100 %";
+  text = core::format("%.17g", value);
+  return {};
+}
+
+std::string no_seed(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return {};
+  return "'" + text + "' is not a whole number from 0 to 18446744073709551615";
+}
+
+}  // namespace interflect::apps

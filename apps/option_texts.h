@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+/// What a person may write as an option's value.  Each returns a complaint, empty where there is none.
+namespace interflect::apps {
+
+/// A number from `low` to `high`: not nan, and no "-5" that an unsigned option would take for a large one.
+std::string outside(const std::string& text, double low, double high);
+
+/// Bytes from "4GB", "512 MB", "1e9", powers of ten as on a label, in place of the text.
+std::string to_bytes(std::string& text);
+
+/// A length in metres above 0.
+std::string no_length(const std::string& text);
+
+/// "1%" or "0.01", in (0, 1), as a number in place of the text.
+std::string to_fraction(std::string& text);
+
+/// 0 .. 2^64 - 1: a parser would take "-1" for the largest.
+std::string no_seed(const std::string& text);
+
+}  // namespace interflect::apps
