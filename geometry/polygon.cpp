@@ -42,27 +42,17 @@ Plane plane_of(std::span<const Vec3> ring) {
   return {unit, unit.dot(mean_of(ring))};
 }
 
+LocalPlane local_plane_of(std::span<const Vec3> ring) { return {plane_of(ring).normal, mean_of(ring)}; }
+
 double relative_planarity_error(const PlanarPolygon& polygon) {
-  const Plane plane = plane_of(polygon.outer);
-  const Vec3 on_plane = mean_of(polygon.outer);  // relative to it, an offset of the whole polygon costs no digits
+  const LocalPlane plane = local_plane_of(polygon.outer);
   double largest = 0;
   const auto add = [&](const Ring& ring) {
-    for (const Vec3& x : ring) largest = std::max(largest, std::abs(plane.normal.dot(x - on_plane)));
+    for (const Vec3& x : ring) largest = std::max(largest, std::abs(plane.distance(x)));
   };
   add(polygon.outer);
   for (const Ring& hole : polygon.holes) add(hole);
   return largest / box_of(polygon.outer).diagonal().norm();
-}
-
-PlanarPolygon flattened(const PlanarPolygon& polygon) {
-  const Vec3 normal = plane_of(polygon.outer).normal, on_plane = mean_of(polygon.outer);
-  PlanarPolygon flat = polygon;
-  const auto flatten = [&](Ring& ring) {
-    for (Vec3& x : ring) x -= normal.dot(x - on_plane) * normal;
-  };
-  flatten(flat.outer);
-  for (Ring& hole : flat.holes) flatten(hole);
-  return flat;
 }
 
 }  // namespace interflect::geometry

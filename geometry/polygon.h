@@ -40,14 +40,18 @@ double area(const PlanarPolygon& polygon);
 /// The plane through the mean of a ring's corners, across its vector area.  Throws Defect without an area.
 Plane plane_of(std::span<const Vec3> ring);
 
+/// The same plane by a point of it, so that an offset of the whole ring costs distances no digits.
+struct LocalPlane {
+  Vec3 normal, point;
+  double distance(const Vec3& x) const { return normal.dot(x - point); }
+};
+LocalPlane local_plane_of(std::span<const Vec3> ring);
+
 /// Largest distance of a corner (holes too) from `plane_of(outer)`, divided by the polygon's diameter.
 double relative_planarity_error(const PlanarPolygon& polygon);
 
 /// A polygon counts as planar if its `relative_planarity_error` is at most this.
 inline constexpr double planarity_tolerance = 1e-6;
-
-/// Every corner moved onto `plane_of(outer)`, along its normal.
-PlanarPolygon flattened(const PlanarPolygon& polygon);
 
 /// Throws Defect in one sentence if the polygon has fewer than three corners, a coordinate that is not finite, no area,
 /// is not planar, crosses itself, or has a hole that is not inside.

@@ -25,9 +25,11 @@ class UnionCorners {
     Vec3 at;
     double angle;  ///< of all corners there [rad]
   };
+  void collect_distinct(std::span<const Vec3> ring, double same_place);
   void add(const Vec3& at, double angle, double same_place);
 
   std::vector<Place> places_;
+  std::vector<Vec3> distinct_;  ///< of one ring
   std::vector<Vec3> corners_;
 };
 

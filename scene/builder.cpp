@@ -1,11 +1,11 @@
 #include "scene/builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "core/error.h"
 #include "core/format.h"
+#include "scene/flattening.h"
 
 namespace interflect::scene {
 namespace {
@@ -18,15 +18,6 @@ Spectrum default_weights(std::size_t channels) {
   }
   for (std::size_t c = 0; c < channels; ++c) weights[static_cast<int>(c)] = 1.0 / static_cast<double>(channels);
   return weights;
-}
-
-/// Of a polygon's corners to its plane, over its diameter: below it all corners are as good as in it.
-constexpr double flat = 1e-12;
-
-Facet make_facet(SurfaceId surface, const geometry::TriangleCorners& corner) {
-  const Vec3 twice = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-  const double length = twice.norm();
-  return {surface, corner, length > 0 ? Vec3(twice / length) : Vec3(Vec3::Zero()), 0.5 * length};
 }
 
 }  // namespace
@@ -44,16 +35,9 @@ MaterialId SceneBuilder::add_material(Material material) {
   return MaterialId{static_cast<std::uint32_t>(scene_.materials.size() - 1)};
 }
 
-SurfaceId SceneBuilder::add_polygon(const std::string& name, const geometry::PlanarPolygon& given,
+SurfaceId SceneBuilder::add_polygon(const std::string& name, const geometry::PlanarPolygon& polygon,
                                     MaterialId material) {
-  geometry::PlanarPolygon polygon = given;
-  auto triangles = geometry::triangulate(polygon);  // first: it refuses what is no polygon
-  if (const double error = geometry::relative_planarity_error(given); error > flat) {
-    polygon = geometry::flattened(given);
-    triangles = geometry::triangulate(polygon);
-    ++flattened_;
-    furthest_ = std::max(furthest_, error * geometry::box_of(given.outer).diagonal().norm());
-  }
+  const auto triangles = geometry::triangulate(polygon);
   const SurfaceId id{static_cast<std::uint32_t>(scene_.surfaces.size())};
   scene_.surfaces.push_back({name, material, static_cast<std::uint32_t>(scene_.facets.size()),
                              static_cast<std::uint32_t>(triangles.size()), polygon});
@@ -108,9 +92,10 @@ void SceneBuilder::share_flux(MaterialId material, const Spectrum& flux) {
 }
 
 Scene SceneBuilder::finish(const std::string& shown) {
-  if (flattened_ > 0)
-    scene_.repairs.push_back({shown, core::format("%zu %s flattened, by %.2g m at most", flattened_,
-                                                  flattened_ == 1 ? "polygon" : "polygons", furthest_)});
+  if (const Flattened flattened = flatten_polygons(scene_); flattened.polygons > 0)
+    scene_.repairs.push_back(
+        {shown, core::format("%zu %s flattened, by %.2g m at most", flattened.polygons,
+                             flattened.polygons == 1 ? "polygon" : "polygons", flattened.furthest)});
   std::multiset<std::string> given;
   for (const Surface& surface : scene_.surfaces) given.insert(surface.name);
   std::set<std::string> used;  // by sides

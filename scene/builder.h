@@ -20,8 +20,6 @@ class SceneBuilder {
   Scene& scene() { return scene_; }  ///< for what has no method here: cameras, sensors, notes
 
   MaterialId add_material(Material material);
-  /// A polygon that is not flat beyond rounding, but counts as planar, is flattened: else its own facets would hide
-  /// parts of it.  That is noted among the repairs of the finished scene.
   /// @throws geometry::Defect  if it is not a planar polygon with an area
   SurfaceId add_polygon(const std::string& name, const geometry::PlanarPolygon& polygon, MaterialId material);
   /// Triangles of a mesh as one surface; none may be degenerate.
@@ -34,15 +32,14 @@ class SceneBuilder {
   /// `flux` [W | lm] shared by area over the surfaces that bear the material becomes its exitance.
   void share_flux(MaterialId material, const Spectrum& flux);
 
-  /// The finished scene.  Names are made unique by numbers, so that each active side's is (Scene::side_name); a surface
+  /// The finished scene.  Polygons that are not flat beyond rounding are flattened (flattening.h), which is noted among
+  /// its repairs.  Names are made unique by numbers, so that each active side's is (Scene::side_name); a surface
   /// that only a back stands in the way of is warned of.
   /// @param shown  the scene in that warning
   Scene finish(const std::string& shown = "scene");
 
  private:
   Scene scene_;
-  std::size_t flattened_ = 0;
-  double furthest_ = 0;  ///< that a corner of them was moved [m]
 };
 
 }  // namespace interflect::scene

@@ -2,6 +2,12 @@
 
 namespace interflect::scene {
 
+Facet make_facet(SurfaceId surface, const std::array<Vec3, 3>& corner) {
+  const Vec3 twice = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  const double length = twice.norm();
+  return {surface, corner, length > 0 ? Vec3(twice / length) : Vec3(Vec3::Zero()), 0.5 * length};
+}
+
 std::vector<SurfaceId> Scene::surface_ids() const {
   std::vector<SurfaceId> ids;
   ids.reserve(surfaces.size());

@@ -23,6 +23,8 @@ struct Facet {
   Vec3 normal;                 ///< unit, out of the front
   double area;                 ///< [m²]
 };
+/// With the normal and area that these corners have; a normal of 0 where they have none.
+Facet make_facet(SurfaceId surface, const std::array<Vec3, 3>& corner);
 
 /// An input surface: what a person names and asks about.  Its facets are scene.facets[first_facet .. first_facet +
 /// facets).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/run.h"
@@ -68,6 +69,11 @@ class Room {
         wall(corner, u, v, n, reflectance, exitance);
       }
   }
+  /// The same as six surfaces without elements (whole_surfaces), each corner moved.
+  void solid(const geometry::Box& box, bool inwards, const std::function<Vec3(const Vec3&)>& place) {
+    builder_.add_box("solid", box, builder_.add_material(diffuse(0.0)),
+                     inwards ? scene::SceneBuilder::Facing::inward : scene::SceneBuilder::Facing::outward, place);
+  }
   scene::Scene finish() { return builder_.finish(); }
 
   std::vector<scene::SurfacePatch> patches;
@@ -75,6 +81,14 @@ class Room {
  private:
   scene::SceneBuilder builder_;
 };
+
+/// An element for each surface, which is a triangle or a convex quad.
+inline std::vector<scene::SurfacePatch> whole_surfaces(const scene::Scene& scene) {
+  std::vector<scene::SurfacePatch> patches;
+  for (const scene::SurfaceId id : scene.surface_ids())
+    patches.push_back(scene::make_patch(id, scene::Side::front, scene.surface(id).outline->outer));
+  return patches;
+}
 
 /// Entries as they come.
 class MatrixSink final : public ExchangeSink {

@@ -50,6 +50,42 @@ TEST(RowErrors, rows_of_a_closed_room_meet_the_tolerance_before_any_repair) {
   }
 }
 
+/// The walls of a room and of two boxes in it, none of which is cut; turned, and written with six digits.
+Room whole_faces(bool turned) {
+  Room room;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.9, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const auto place = [&](const Vec3& x) -> Vec3 {
+    if (!turned) return x;
+    return (1e6 * turn * x).array().round() / 1e6;
+  };
+  room.solid({Vec3::Zero(), Vec3(5, 4, 3)}, true, place);
+  room.solid({Vec3(1, 1, 0.2), Vec3(2, 2, 1.2)}, false, place);
+  room.solid({Vec3(2.5, 1.5, 0.5), Vec3(4, 3, 2)}, false, place);
+  return room;
+}
+
+// Past both boxes most of the floor sees the ceiling across kinks.  A box whose faces are bent by its digits is a solid
+// all the same.
+TEST(RowErrors, of_a_few_large_faces_meet_a_small_tolerance_in_seconds) {
+  for (const bool turned : {false, true}) {
+    Room room = whole_faces(turned);
+    const scene::Scene scene = room.finish();
+    const std::vector<scene::SurfacePatch> faces = test::whole_surfaces(scene);
+    const auto caster = raycast::make_ray_caster("brute", scene);
+    test::LastEntrySink sink(faces.size());
+    core::LocalRun run(1, 2);
+    const ToleranceReport report = assemble_to_tolerance(
+        [&](double relative) {
+          return make_form_factor_method("analytic", {scene, faces, *caster, 1, relative, 16});
+        },
+        1e-6, faces, sink, run);
+    EXPECT_TRUE(report.met) << turned;
+    EXPECT_LT(report.pairs.points, 3'000'000u) << turned;
+    for (Index i = 0; i < std::ssize(faces); ++i)
+      EXPECT_NEAR(sink.K.row(i).sum() / faces[std::size_t(i)].area, 1, 1e-6) << turned << ' ' << i;
+  }
+}
+
 // A method asked for thirty times less than it should be: the rows that fail are done again until they do not.
 TEST(RowErrors, rows_that_fail_are_done_again) {
   const Assembled once = assembled("analytic", 1e-4, 2, 30);

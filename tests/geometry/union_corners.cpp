@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "exact_polygons.h"
 #include "shapes.h"
 
@@ -58,6 +60,48 @@ TEST(UnionCorners, of_what_is_seen_past_triangles_are_those_of_exact_booleans) {
     }
     UnionCorners of;
     EXPECT_EQ(of(part.seen(), Vec3::UnitZ(), 1e-9).size(), corners_of(seen)) << k;
+  }
+}
+
+std::vector<Ring> faces_of(const Vec3& low, const Vec3& high) {
+  std::vector<Ring> faces;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      Ring ring(4, upper ? high : low);
+      for (int k = 0; k < 4; ++k) {
+        ring[std::size_t(k)][(axis + 1) % 3] = (k == 1 || k == 2 ? high : low)[(axis + 1) % 3];
+        ring[std::size_t(k)][(axis + 2) % 3] = (k >= 2 ? high : low)[(axis + 2) % 3];
+      }
+      if (!upper) std::reverse(ring.begin(), ring.end());
+      faces.push_back(ring);
+    }
+  return faces;
+}
+
+// Upright edges of both boxes cast shadows whose lines all meet straight above the eye, where cuts leave slivers.
+TEST(UnionCorners, of_what_is_seen_past_boxes_whose_edges_are_parallel_are_those_of_exact_booleans) {
+  Dice dice(18);
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 eye(dice.in(-3, 4), dice.in(-3, 4), 0);
+    const auto seen_from = [&](Ring ring) {
+      for (Vec3& x : ring) x -= eye;
+      return ring;
+    };
+    const Ring target = seen_from(rectangle(-2, -2, 6, 5, 3));
+    test::ExactSet seen(test::projection(target));
+    HiddenPart part;
+    part.start(target);
+    for (const auto& [low, high] :
+         {std::pair(Vec3(1, 1, 0.2), Vec3(2, 2, 1.2)), std::pair(Vec3(2.5, 1.5, 0.5), Vec3(4, 3, 2))}) {
+      std::vector<Ring> faces;
+      for (const Ring& face : faces_of(low, high)) faces.push_back(seen_from(face));
+      for (const Ring& face : faces) seen.difference(test::projection(face));
+      std::vector<HalfSpace> shadow;
+      ASSERT_TRUE(ConvexBlocker::solid(faces).append_shadow(Vec3::Zero(), 1e-12, shadow));
+      part.hide(shadow);
+    }
+    UnionCorners of;
+    EXPECT_EQ(of(part.seen(), Vec3::UnitZ(), 1e-9).size(), corners_of(seen)) << k << ": " << eye.transpose();
   }
 }
 
