@@ -32,7 +32,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_flag("--json", common.json, "Print the result as one JSON object");
-  app.add_flag("-q,--quiet", common.quiet, "No progress and no messages but errors");
+  app.add_flag("-q,--quiet", common.quiet, "No progress, and no messages but errors and shortfalls");
   app.add_flag("-v,--verbose", common.verbose, "Say more");
 }
 
@@ -69,6 +69,11 @@ void add_closure(CLI::App& command, std::string& closure) {
       ->capture_default_str();
   command.add_flag_callback(
       "--restore-closure", [&closure] { closure = "scaling"; }, "The same as --closure scaling");
+}
+
+void add_no_pictures(CLI::App& command, bool& pictures) {
+  command.add_flag_callback(
+      "--no-pictures", [&pictures] { pictures = false; }, "Write no PNG");
 }
 
 void add_radiosity(CLI::App& command, SolveOptions& options) {
@@ -117,7 +122,7 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
         out->required(false);
       },
       "Say what it would need, and stop: no --out is needed");
-  command.add_flag("!--no-pictures", options.pictures, "Write no PNG");
+  add_no_pictures(command, options.pictures);
 }
 
 /// A subcommand with an example; `run` is called with the options that parsing filled.
@@ -209,6 +214,7 @@ void add_view_factors(CLI::App& app, Command& chosen) {
   command->add_option("--form-factors", options->form_factors, "Form-factor method")
       ->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
+  add_closure(*command, options->closure);
   command
       ->add_option("--element-size", options->element_size,
                    "Longest edge of an element [m]; default: one element a face")
@@ -267,7 +273,7 @@ void add_exchange(CLI::App& app, Command& chosen) {
       ->add_option("--quadrature-tolerance", options->settings.quadrature_tolerance, "Relative error of a form factor")
       ->check(within(1e-14, 0.5))
       ->capture_default_str();
-  command->add_flag("!--no-pictures", options->pictures, "Write no PNG");
+  add_no_pictures(*command, options->pictures);
   add_closure(*command, options->settings.closure);
   add_effort(*command, options->settings.row_tolerance, options->settings.samples, options->settings.resolution,
              when_no_rows);

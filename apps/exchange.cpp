@@ -128,8 +128,8 @@ void write_pictures(const std::filesystem::path& folder, const scene::Scene& sce
 #endif
 
 /// Warns of what it fell short of.
-void warn_of(const ThermalExchange& exchange) {
-  for (const std::string& shortfall : shortfalls_of(exchange.solution)) core::log::warning(shortfall);
+void warn_of(const ThermalExchange& exchange, const fem::RadiositySettings& settings) {
+  for (const std::string& shortfall : shortfalls_of(exchange.solution, settings)) core::log::shortfall(shortfall);
   for (const ThermalSurface& s : exchange.surfaces)
     if (s.without_temperature > 0)
       core::log::warning(core::format(
@@ -140,7 +140,7 @@ void warn_of(const ThermalExchange& exchange) {
 }  // namespace
 
 ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run) {
-  const scene::Scene scene = read_and_note(options.scene);
+  const scene::Scene scene = read_and_note(options.scene, SceneUse::exchange);
   const results::OutputDirectory folder(options.out);
   const ThermalExchange found = fem::solve_exchange(scene, options.settings, options.environment, run);
   const results::Record record = record_of(found, options);
@@ -150,13 +150,13 @@ ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common,
 #ifdef INTERFLECT_WITH_VTK
   if (options.pictures) write_pictures(options.out, scene, found);
 #endif
-  warn_of(found);
+  warn_of(found, options.settings);
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)
     std::printf("%s\nsum of Q %.6g W; to the environment %.6g W, by rays\nwritten to %s\n", table_of(found).c_str(),
                 found.emitted, found.to_environment, options.out.string().c_str());
-  return shortfalls_of(found.solution).empty() ? success : not_met;
+  return shortfalls_of(found.solution, options.settings).empty() ? success : not_met;
 }
 
 }  // namespace interflect::apps

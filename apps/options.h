@@ -57,6 +57,7 @@ struct ViewFactorOptions {
   double element_size = 0;  ///< longest edge [m]; 0: one element a face
   int visibility_rays = 16, resolution = 256;
   std::uint64_t samples = 0;
+  std::string closure = "none";
   std::string groups;   ///< what the factors of a .csv are summed by; empty: by nothing
   std::string view_of;  ///< a surface whose share of every element's view is drawn; empty: none
   bool forecast_only = false;

@@ -6,8 +6,9 @@
 
 namespace interflect::apps {
 
-scene::Scene read_and_note(const std::filesystem::path& file) {
+scene::Scene read_and_note(const std::filesystem::path& file, SceneUse use) {
   scene::Scene scene = scene::read_scene(file);
+  if (use == SceneUse::light) scene::warn_of_darkness(scene);
   for (const scene::Note& note : scene.repairs) core::log::info(note.line());
   for (const scene::Note& note : scene.warnings) core::log::warning(note.line());
   return scene;

@@ -8,8 +8,11 @@
 
 namespace interflect::apps {
 
+/// Whether a scene without light is odd, or its surfaces exchange something else.
+enum class SceneUse { light, exchange };
+
 /// Reads the scene and prints what was noted about it; nothing is written yet.
-scene::Scene read_and_note(const std::filesystem::path& file);
+scene::Scene read_and_note(const std::filesystem::path& file, SceneUse use = SceneUse::light);
 
 /// "room.obj: 12 degenerate faces dropped", a note a line.
 std::vector<std::string> lines_of(const std::vector<scene::Note>& notes);

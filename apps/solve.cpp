@@ -25,7 +25,7 @@ ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& 
     std::printf("%s\n", results::json_text(summary_record(*solved, options, common, run)).c_str());
   else if (!common.quiet)
     std::printf("%s\nwritten to %s\n", solution_text(*solved).c_str(), options.out.string().c_str());
-  return shortfalls_of(solved->solution).empty() ? success : not_met;
+  return shortfalls_of(solved->solution, options.settings).empty() ? success : not_met;
 }
 
 }  // namespace interflect::apps

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/read_scene.h"
+#include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
 #include "results/factor_store.h"
@@ -25,6 +26,11 @@ std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
 auto factors_from(const std::filesystem::path& file) {
   return [file](const scene::Scene& scene, std::span<const scene::SurfacePatch> elements, fem::ExchangeSink& sink) {
     const results::FactorStore store(file);
+    if (const auto count = static_cast<Index>(elements.size()); store.size() != count)
+      throw core::InputError(file.string(),
+                             core::format("it has the view factors of %td elements, and the scene is cut into %td: the "
+                                          "--element-size of that run, and the same scene, expected",
+                                          store.size(), count));
     store.require_geometry(results::geometry_digest(scene, elements));
     const Index n = store.size(), height = store.tile();
     std::vector<double> K(static_cast<std::size_t>(height * n)), error(K.size());
@@ -68,18 +74,17 @@ std::vector<std::string> warnings_of(const SolvedScene& solved) {
     warnings.push_back(
         "form factors lose " + core::format_percent(imbalance / emitted) +
         " of the emitted flux: do faces coincide or lie closer than elements are long?  See interflect check");
-  for (std::string& warning : shortfalls_of(solution)) warnings.push_back(std::move(warning));
   return warnings;
 }
 
 }  // namespace
 
-std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution) {
+std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, const fem::RadiositySettings& settings) {
   std::vector<std::string> warnings;
   if (!solution.tolerance_met)
-    warnings.push_back(
-        core::format("some rows of form factors are less accurate than asked: sum_j |dF_ij| is up to %.1e",
-                     solution.largest_row_error));
+    warnings.push_back(core::format(
+        "some rows of form factors are less accurate than asked: sum_j |dF_ij| is up to %.1e, %.1e asked for",
+        solution.largest_row_error, settings.row_tolerance));
   if (!solution.solver.converged())
     warnings.push_back("the solver has not converged: " + solvers::describe(solution.solver.why));
   return warnings;
@@ -116,6 +121,10 @@ std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const Comm
   solved->warnings = lines_of(solved->scene.warnings);
   for (const std::string& warning : warnings_of(*solved)) {
     core::log::warning(warning);
+    solved->warnings.push_back(warning);
+  }
+  for (const std::string& warning : shortfalls_of(solved->solution, settings)) {
+    core::log::shortfall(warning);
     solved->warnings.push_back(warning);
   }
   return solved;

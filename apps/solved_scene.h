@@ -37,7 +37,7 @@ struct SolvedScene {
 };
 
 /// What a solution fell short of: the tolerance of its rows, that of the solver.
-std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution);
+std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, const fem::RadiositySettings& settings);
 
 /// "5 000 elements, 0.2 GB, about 40 s"
 std::string describe(const fem::Forecast& forecast);

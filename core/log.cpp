@@ -15,6 +15,16 @@ spdlog::logger& logger() {
   return *instance;
 }
 
+/// The same, at any level that is set.
+spdlog::logger& insistent_logger() {
+  static const std::shared_ptr<spdlog::logger> instance = [] {
+    auto made = logger().clone("interflect");
+    made->set_level(spdlog::level::warn);
+    return made;
+  }();
+  return *instance;
+}
+
 }  // namespace
 
 void set_level(Level level) {
@@ -27,5 +37,6 @@ void set_level(Level level) {
 void debug(const std::string& message) { logger().debug("{}", message); }
 void info(const std::string& message) { logger().info("{}", message); }
 void warning(const std::string& message) { logger().warn("{}", message); }
+void shortfall(const std::string& message) { insistent_logger().warn("{}", message); }
 
 }  // namespace interflect::core::log

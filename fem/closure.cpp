@@ -16,6 +16,7 @@ constexpr int most_gradient_steps = 500;
 constexpr int most_halvings = 30;
 // Rays are counted: an opening that none of them finds though 16 should (environment_column.h) has the chance exp(-16).
 constexpr double standard_deviations = 8;
+constexpr double explained_deviations = 3;  // of the environment, in a row, that need no other reason
 constexpr double least_stiffness =
     1e-8;  // of what a row had at first, which counts where all its entries are at their bounds
 
@@ -92,6 +93,16 @@ std::vector<double> misclosure_of(std::span<const double> row_sum, const Environ
   return off;
 }
 
+/// Of what rows are off by, what says something of them: not what the environment's own noise explains.
+std::vector<double> beyond_noise(std::span<const double> misclosure, const EnvironmentColumn* environment) {
+  std::vector<double> seen;
+  for (std::size_t a = 0; a < misclosure.size(); ++a) {
+    const double noise = environment == nullptr ? 0 : explained_deviations * environment->standard_error[a];
+    seen.push_back(std::max(0.0, std::abs(misclosure[a]) - noise));
+  }
+  return seen;
+}
+
 /// What an operator's rows may be off by, for what was not sampled: stated bounds, and what was left out.
 std::vector<double> row_bounds(Index size, std::span<const double> stated, std::span<const double> dropped) {
   std::vector<double> bounds(stated.begin(), stated.end());
@@ -151,7 +162,7 @@ class Repair {
       : K_(K), settings_(settings), off_(misclosure_of(K.row_sums(run), environment, dropped)) {
     const std::vector<double> bounds =
         row_bounds(K.size(), settings.row_bound, dropped.empty() ? K.dropped() : std::span<const double>());
-    const EntryVariances variances = entry_variances(K, bounds, off_, K.row_sums(run), run);
+    const EntryVariances variances = entry_variances(K, bounds, beyond_noise(off_, environment), K.row_sums(run), run);
     law_ = make_law(settings.method, K, environment, variances, run);
     Vector aside = Vector::Zero(K.size(), 1);
     for (std::size_t a = 0; a < dropped.size(); ++a) aside(static_cast<Index>(a), 0) = dropped[a] * K.gram()[a];

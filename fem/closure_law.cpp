@@ -11,10 +11,10 @@ constexpr double least_relative_error = 1e-6;  // so that no entry is taken for 
 }  // namespace
 
 EntryVariances entry_variances(const SymmetricOperator& K, std::span<const double> row_bound,
-                               std::span<const double> misclosure, std::span<const double> row_sum, const Run& run) {
+                               std::span<const double> seen, std::span<const double> row_sum, const Run& run) {
   EntryVariances variances;
   for (std::size_t a = 0; a < row_sum.size(); ++a) {
-    const double off = std::max(row_bound.empty() ? 0.0 : row_bound[a], std::abs(misclosure[a]));
+    const double off = std::max(row_bound.empty() ? 0.0 : row_bound[a], seen[a]);
     variances.relative.push_back(row_sum[a] > 0 ? std::max(off / row_sum[a], least_relative_error) : 1.0);
   }
   const solvers::ColumnMatrix sums = K.sums_by_row(run, 2, [&](const StoredPair& p, solvers::ColumnMatrix& to) {

@@ -16,8 +16,8 @@ namespace interflect::fem {
 ///
 /// e_ab is the standard error of what was sampled.  The rest, quadrature, aliasing, far fields, is asked of methods
 /// relative to the entry, so its deviation is a part tau of K_ab: tau_a is the larger of what row a states of it, sum_b
-/// bound_ab / sum_b K_ab, and of what the row is seen to be off by, |1 - sum_b F_ab - F_a,env| / sum_b F_ab; the mean
-/// of a's and b's (geometric) makes w symmetric.
+/// bound_ab / sum_b K_ab, and of what the row is seen to be off by, |1 - sum_b F_ab - F_a,env| / sum_b F_ab, but for
+/// three standard errors of F_a,env; the mean of a's and b's (geometric) makes w symmetric.
 struct EntryVariances {
   std::vector<double> relative;  ///< tau_a
   double kappa = 1;              ///< [m²]
@@ -26,10 +26,10 @@ struct EntryVariances {
   }
 };
 /// @param row_bound   sum_b bound_ab / A_a
-/// @param misclosure  1 - sum_b F_ab - F_a,env
+/// @param seen        |1 - sum_b F_ab - F_a,env|, less what the environment's noise explains
 /// @param row_sum     sum_b F_ab
 EntryVariances entry_variances(const SymmetricOperator& K, std::span<const double> row_bound,
-                               std::span<const double> misclosure, std::span<const double> row_sum, const Run& run);
+                               std::span<const double> seen, std::span<const double> row_sum, const Run& run);
 
 /// How a repaired matrix follows from multipliers u, one an element, none of which need to be stored a pair:
 ///

@@ -9,7 +9,8 @@
 
 namespace interflect::fem {
 
-/// F_a,env: what leaves element a and reaches no other, through openings or onto black backs; sum_b F_ab + F_a,env = 1.
+/// F_a,env: what leaves element a and reaches no other, through openings, onto black backs or surfaces without elements;
+/// sum_b F_ab + F_a,env = 1.
 struct EnvironmentColumn {
   std::vector<double> factor;          ///< in [0, 1]
   std::vector<double> standard_error;  ///< never 0
@@ -23,10 +24,14 @@ struct EnvironmentColumn {
 /// too, so that s² is never too small in the mean, and far smaller than without strata [Cochran 1977, 5A.12, "collapsed
 /// strata"].  Two rays are added, since the edge of an opening, or a small one, may lie between all rays.  Ray j of
 /// element a is keyed by (seed, a, j).
+/// @param patches          of every side of a surface all of its elements, or none
 /// @param rays_an_element  rounded up to k^4 with an even k: 16, 256, 1 296, 4 096
 /// @throws core::Interrupted
 /// Test: tests/fem/environment_column.cpp
 EnvironmentColumn cast_environment_column(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
                                           const raycast::RayCaster& rays, std::uint64_t rays_an_element, Run& run);
+
+/// Whether no ray at all was lost.
+bool is_closed(const EnvironmentColumn& column);
 
 }  // namespace interflect::fem

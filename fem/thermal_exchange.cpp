@@ -12,18 +12,32 @@ namespace {
 
 double fourth(double x) { return x * x * x * x; }
 
+/// "'floor', 'walls'", each once; at most three of them.
+std::string materials_without_heat(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::SurfaceId id : scene.surface_ids())
+    if (const scene::Material& material = scene.material(id); !material.thermal) {
+      const std::string name = "'" + core::single_line(material.name) + "'";
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  std::string list;
+  for (std::size_t k = 0; k < names.size() && k < 3; ++k) list += (k == 0 ? "" : ", ") + names[k];
+  return list + (names.size() > 3 ? ", .." : "");
+}
+
 void require_thermal(const scene::Scene& scene) {
+  const std::string shown = scene.file.empty() ? "scene" : scene.file.string();
+  if (const std::string names = materials_without_heat(scene); !names.empty())
+    throw core::InputError(shown,
+                           "an exchange needs an emissivity, with a temperature or a heat_flux, of every material: "
+                           "missing of " +
+                               names);
   if (scene.channel_count() != 1 || scene.quantity != scene::Quantity::radiometric)
-    throw core::InputError("an exchange needs a radiometric scene of one channel");
-  bool temperature = false;
-  for (const scene::SurfaceId id : scene.surface_ids()) {
-    const scene::Material& material = scene.material(id);
-    if (!material.thermal)
-      throw core::InputError("material '" + material.name + "'",
-                             "an emissivity with a temperature or a heat flux expected");
-    temperature = temperature || material.thermal->temperature;
-  }
-  if (!temperature) throw core::InputError("no surface has a temperature: heat fluxes alone have no answer");
+    throw core::InputError(shown, "an exchange needs \"quantity\": \"radiometric\" and one channel");
+  const auto ids = scene.surface_ids();
+  const auto has_temperature = [&](scene::SurfaceId id) { return scene.material(id).thermal->temperature.has_value(); };
+  if (std::none_of(ids.begin(), ids.end(), has_temperature))
+    throw core::InputError(shown, "no surface has a temperature: heat fluxes alone have no answer");
 }
 
 /// The radiosity problem whose field is the thermal one less sigma T_0^4.

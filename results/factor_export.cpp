@@ -158,6 +158,19 @@ void write_table(const std::filesystem::path& file, const std::string& heading, 
 
 std::string number(std::size_t i) { return std::to_string(i); }
 
+constexpr const char* environment_name = "environment";
+bool has_environment(const FactorElements& elements) { return !elements.environment.empty(); }
+
+/// Rows with the environment as one more column, where it is known.
+FactorRows with_environment(const FactorElements& elements, const FactorRows& rows) {
+  if (!has_environment(elements)) return rows;
+  return [&](Index i, std::span<double> F, std::span<double> error) {
+    rows(i, F.first(F.size() - 1), error.first(error.size() - 1));
+    F.back() = elements.environment[static_cast<std::size_t>(i)];
+    error.back() = elements.environment_error[static_cast<std::size_t>(i)];
+  };
+}
+
 std::vector<std::string> quoted(std::span<const std::string> names) {
   std::vector<std::string> out;
   for (const std::string& name : names) out.push_back(Csv().text(name).str());
@@ -184,6 +197,10 @@ void write_factors_npz(const std::filesystem::path& file, const FactorElements& 
   npz.add("row_sum", sums.F, {n});
   npz.add("row_error", sums.error, {n});
   npz.add("name", elements.name);
+  if (!elements.environment.empty()) {
+    npz.add("environment", elements.environment, {n});
+    npz.add("environment_error", elements.environment_error, {n});
+  }
   add_points(npz, points, n);
   npz.keep();
 }
@@ -200,7 +217,9 @@ void write_point_factors_mtx(const std::filesystem::path& file, const PointFacto
 
 void write_factors_csv(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows) {
   const std::size_t n = elements.area.size();
-  write_table(file, "i,j,F,error", n, n, number, number, rows);
+  write_table(
+      file, "i,j,F,error", n, n + has_environment(elements), number,
+      [&](std::size_t j) { return j < n ? number(j) : environment_name; }, with_environment(elements, rows));
 }
 
 void write_point_factors_csv(const std::filesystem::path& file, const PointFactors& points, Index elements) {
@@ -233,7 +252,8 @@ void write_grouped_factors_csv(const std::filesystem::path& file, const FactorEl
                                const FactorRows& rows, std::span<const std::string> group) {
   if (group.size() != elements.area.size()) throw core::PreconditionError("a group per element expected");
   const Groups groups(group);
-  const std::vector<std::string> names = quoted(groups.names);
+  std::vector<std::string> names = quoted(groups.names);
+  if (has_environment(elements)) names.emplace_back(environment_name);  // the last column
   const auto summed = [&, row = std::make_shared<Row>(elements)](Index g, std::span<double> F,
                                                                  std::span<double> error) {
     std::fill(F.begin(), F.end(), 0.0);
@@ -246,11 +266,14 @@ void write_grouped_factors_csv(const std::filesystem::path& file, const FactorEl
         F[groups.of[j]] += elements.area[i] * row->F[j];
         error[groups.of[j]] += elements.area[i] * row->error[j];
       }
+      if (!has_environment(elements)) continue;
+      F.back() += elements.area[i] * elements.environment[i];
+      error.back() += elements.area[i] * elements.environment_error[i];
     }
     for (std::size_t h = 0; h < F.size(); ++h) F[h] /= area, error[h] /= area;
   };
   const auto name = [&](std::size_t g) { return names[g]; };
-  write_table(file, "from,to,F,error", names.size(), names.size(), name, name, summed);
+  write_table(file, "from,to,F,error", groups.names.size(), names.size(), name, name, summed);
 }
 
 double most_export_bytes(const std::filesystem::path& file, std::uint64_t elements, std::uint64_t points) {

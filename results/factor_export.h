@@ -14,7 +14,7 @@ namespace interflect::results {
 
 /// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n); and of S points sensor_F,
 /// sensor_error (S x n), sensor_row_sum, sensor_row_error, sensor_name, sensor_index (S), sensor_position,
-/// sensor_normal (S x 3).  Asks for the rows twice.
+/// sensor_normal (S x 3); environment, environment_error (n) where it is known.  Asks for the rows twice.
 void write_factors_npz(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows,
                        const PointFactors& points = {});
 
@@ -23,7 +23,8 @@ void write_factors_mtx(const std::filesystem::path& file, const FactorElements& 
 /// The same of points: a row each, in their order.
 void write_point_factors_mtx(const std::filesystem::path& file, const PointFactors& points, Index elements);
 
-/// `i,j,F,error` with 17 digits, elements numbered from 0.  Pairs whose F and error are both 0 are left out.
+/// `i,j,F,error` with 17 digits, elements numbered from 0; j is `environment` for what reaches none of them, where that
+/// is known.  Pairs whose F and error are both 0 are left out.
 void write_factors_csv(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows);
 
 /// `from,to,F,error`: F_GH = sum_{i in G} A_i sum_{j in H} F_ij / A_G, groups in the order of their first elements;

@@ -60,7 +60,7 @@ Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded,
   std::size_t width = 1, point_width = 1;
   for (const std::string& name : elements.name) width = std::max(width, name.size());
   for (const measure::SensorPoint& point : points) point_width = std::max(point_width, point.sensor.size());
-  constexpr std::uint64_t structure = 1 << 20, lists = 9 * sizeof(double);
+  constexpr std::uint64_t structure = 1 << 20, lists = 11 * sizeof(double);
   const std::uint64_t at_once =
       structure + elements.area.size() * (lists + width) + points.size() * (lists + point_width);
   return {at_once + padded * padded * (sizeof(double) + sizeof(float)) +
@@ -73,6 +73,11 @@ std::vector<double> read_doubles(const Hdf5File& file, const std::string& name, 
   std::vector<double> out(count);
   file.read(name, {0}, {count}, out.data());
   return out;
+}
+
+/// Either list of it; empty where there is none.
+std::vector<double> read_environment(const Hdf5File& file, const std::string& name, std::uint64_t count) {
+  return file.has("environment") ? read_doubles(file, name, count) : std::vector<double>();
 }
 
 std::vector<Vec3> read_points(const Hdf5File& file, const std::string& name, std::uint64_t count) {
@@ -89,7 +94,7 @@ std::uint64_t element_count(const Hdf5File& file) {
   const Sizes sizes = file.sizes_of("area");
   std::error_code error;
   if (sizes.size() != 1 || sizes[0] > std::filesystem::file_size(file.path(), error) / sizeof(double))
-    throw core::InputError(file.path().string(), "'area' promises more than the file holds");
+    throw DamagedFile(file.path().string(), "'area' promises more than the file holds");
   return sizes[0];
 }
 
@@ -128,6 +133,11 @@ Hdf5File FactorStoreWriter::begin(const std::filesystem::path& file, const Facto
   store.write("normal", {0, 0}, {n, 3}, flat(elements.normal).data());
   store.write("centroid", {0, 0}, {n, 3}, flat(elements.centroid).data());
   store.write_texts("name", elements.name);
+  if (!elements.environment.empty()) {
+    for (const char* name : {"environment", "environment_error"}) store.make_doubles(name, {n});
+    store.write("environment", {0}, {n}, elements.environment.data());
+    store.write("environment_error", {0}, {n}, elements.environment_error.data());
+  }
   point_group::make(store, points, n);
   store.flush();
   return store;
@@ -140,7 +150,9 @@ FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorEle
                                      std::span<const measure::SensorPoint> points)
     : file_(std::move(file)), partial_(partial_of(file_)), size_(elements.size()), area_(elements.area) {
   const std::size_t n = elements.area.size();
-  if (elements.normal.size() != n || elements.centroid.size() != n || elements.name.size() != n || tile < 0)
+  if ((!elements.environment.empty() && elements.environment.size() != n) ||
+      elements.environment_error.size() != elements.environment.size() || elements.normal.size() != n ||
+      elements.centroid.size() != n || elements.name.size() != n || tile < 0)
     throw core::PreconditionError("FactorStoreWriter: one entry per element in each list, and a tile of 0 or more");
   if (std::error_code error; file_.filename().empty() || std::filesystem::is_directory(file_, error))
     throw core::InputError(file_.string(), "cannot be written: Is a directory");
@@ -160,16 +172,23 @@ FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorEle
 }
 
 void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreKey& key,
-                              std::span<const measure::SensorPoint> points) {
+                              std::span<const measure::SensorPoint> points) try {
   store_ = std::make_unique<Hdf5File>(Hdf5File::open(partial_, Hdf5File::Access::change));
   require_store(*store_);
+  if (const std::uint64_t begun = element_count(*store_); begun != size_of(elements.size()))
+    throw core::InputError(
+        partial_.string(),
+        core::format("it was begun with %llu elements, and this run has %llu (remove it to begin "
+                     "anew, or repeat the options to go on)",
+                     static_cast<unsigned long long>(begun), static_cast<unsigned long long>(elements.size())));
   require_digest(*store_, store_->note("digest"), key.digest);
   if (store_->note("settings") != key.settings)
     throw core::InputError(partial_.string(),
                            "it was begun with other settings (remove it to begin anew, or repeat them to go on)");
-  const std::uint64_t n = element_count(*store_);
-  if (n != size_of(elements.size()) || read_doubles(*store_, "area", n) != elements.area ||
-      store_->texts("name") != elements.name)
+  const std::uint64_t n = size_of(elements.size());
+  const bool same_environment = read_environment(*store_, "environment", n) == elements.environment &&
+                                read_environment(*store_, "environment_error", n) == elements.environment_error;
+  if (read_doubles(*store_, "area", n) != elements.area || store_->texts("name") != elements.name || !same_environment)
     throw core::InputError(partial_.string(), "its elements are others than those of this run");
   if (!same_points(point_group::points(*store_, n), points))
     throw core::InputError(partial_.string(), "it was begun with other sensors (remove it to begin anew)");
@@ -179,6 +198,8 @@ void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreK
   require_sizes(*store_, "K_error", {n, n});
   done_ = read_done(*store_, across_);
   points_done_ = point_group::done(*store_, points.size());
+} catch (const DamagedFile&) {
+  throw core::InputError(partial_.string(), "it is damaged or cut short: remove it to begin anew");
 }
 
 bool FactorStoreWriter::is_done(Index I, Index J) const {
@@ -291,6 +312,8 @@ FactorStore::FactorStore(const std::filesystem::path& file) : store_(Hdf5File::o
   elements_.centroid = read_points(store_, "centroid", n);
   elements_.name = store_.texts("name");
   require_sizes(store_, "name", {n});
+  elements_.environment = read_environment(store_, "environment", n);
+  elements_.environment_error = read_environment(store_, "environment_error", n);
   row_sum_ = read_doubles(store_, "row_sum", n);
   row_error_ = read_doubles(store_, "row_error", n);
   require_sizes(store_, "K", {n, n});
@@ -380,7 +403,7 @@ double factor_store_bytes(std::uint64_t elements, std::uint64_t points) {
   const auto n = static_cast<double>(elements),
              t = std::min(n, static_cast<double>(usual_tile(static_cast<Index>(elements))));
   const double across = elements > 0 ? std::ceil(n / t) : 0;
-  constexpr double per_pair = sizeof(double) + sizeof(float), lists = 9 * sizeof(double) + 65, structure = 1 << 20;
+  constexpr double per_pair = sizeof(double) + sizeof(float), lists = 11 * sizeof(double) + 65, structure = 1 << 20;
   return 0.5 * per_pair * across * (across + 1) * t * t + lists * n +
          static_cast<double>(point_group::bytes(points, elements)) + structure;
 }

@@ -12,11 +12,13 @@
 /// to.
 namespace interflect::results {
 
-/// The elements between which view factors are; all lists have the same length.
+/// The elements between which view factors are; all lists have the same length, the last two unless empty.
 struct FactorElements {
   std::vector<double> area;            ///< [m²]
   std::vector<Vec3> normal, centroid;  ///< unit; [m]
   std::vector<std::string> name;       ///< of the side of the surface: "NAME", "NAME/back"
+  /// F_i,env, what reaches no element, and its errors [1]; empty: not known.
+  std::vector<double> environment, environment_error;
 
   Index size() const { return static_cast<Index>(area.size()); }
 };

@@ -27,24 +27,28 @@ std::mutex& library_mutex() {
   return mutex;
 }
 
-/// What the library remembers of its last failure: the system's word for it where there is one, else its innermost
-/// complaint.
-std::string last_complaint() {
-  std::string said;
+/// What the library remembers of its last failure.
+struct Complaint {
+  std::string of_system;   ///< "No space left on device"; empty where the system had no part in it
+  std::string of_library;  ///< the innermost
+};
+
+Complaint last_complaint() {
+  Complaint said;
   const auto look = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
-    auto& text = *static_cast<std::string*>(out);
+    Complaint& found = *static_cast<Complaint*>(out);
     const std::string description = error->desc ? error->desc : "";
     const std::string key = "error message = '";
     if (const auto at = description.find(key); at != std::string::npos) {
-      text = description.substr(at + key.size());
-      text.erase(std::min(text.find('\''), text.size()));
+      found.of_system = core::single_line(description.substr(at + key.size()));
+      found.of_system.erase(std::min(found.of_system.find('\''), found.of_system.size()));
       return 1;  // that is all
     }
-    if (text.empty()) text = description;
+    if (found.of_library.empty()) found.of_library = core::single_line(description);
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &said);
-  return said.empty() ? "the HDF5 library says no more" : core::single_line(said);
+  return said;
 }
 
 /// One turn with the library, whose own reports go nowhere.
@@ -81,24 +85,37 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// Within a turn: complains about what did not work.
+/// Within a turn: complains about what did not work.  What cannot be read, and not for the system's sake, is damaged:
+/// which of its structures the library missed first says nothing to anybody.
 class Checks {
  public:
-  Checks(const std::filesystem::path& path, std::string trouble) : path_(path), trouble_(std::move(trouble)) {}
+  enum class Task { write, read };
+
+  Checks(const std::filesystem::path& path, std::string trouble, Task task)
+      : path_(path), trouble_(std::move(trouble)), task_(task) {}
   template <class Result>
   Result operator()(Result result) const {
-    if (result < 0) throw core::InputError(path_.string(), trouble_ + ": " + last_complaint());
+    if (result < 0) fail(last_complaint());
     return result;
   }
 
  private:
+  [[noreturn]] void fail(const Complaint& said) const {
+    const std::string trouble = trouble_ + ": ";
+    if (!said.of_system.empty()) throw core::InputError(path_.string(), trouble + said.of_system);
+    if (task_ == Task::read) throw DamagedFile(path_.string(), trouble + "the file is damaged or cut short");
+    throw core::InputError(path_.string(),
+                           trouble + (said.of_library.empty() ? "the HDF5 library says no more" : said.of_library));
+  }
+
   const std::filesystem::path& path_;
   std::string trouble_;
+  Task task_;
 };
 
-Checks writing(const std::filesystem::path& path) { return {path, "cannot be written"}; }
+Checks writing(const std::filesystem::path& path) { return {path, "cannot be written", Checks::Task::write}; }
 Checks reading(const std::filesystem::path& path, const std::string& name) {
-  return {path, "'" + name + "' cannot be read"};
+  return {path, "'" + name + "' cannot be read", Checks::Task::read};
 }
 
 hid_t space_of(const Hdf5File::Sizes& sizes) {
@@ -215,12 +232,12 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file, Access access) {
     throw core::InputError(file.string(), "this is not a regular file");
   const Turn turn;
   const htri_t is_hdf5 = H5Fis_hdf5(file.c_str());
-  if (is_hdf5 == 0) throw core::InputError(file.string(), "this is not an HDF5 file");
-  const Checks check(file, "cannot be opened");
+  if (is_hdf5 == 0) throw DamagedFile(file.string(), "this is not an HDF5 file");
+  const Checks check(file, "cannot be opened", Checks::Task::read);
   check(is_hdf5);
   const Handle how(plain_access(check), H5Pclose);
   const hid_t opened = H5Fopen(file.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, how);
-  if (opened < 0 && last_complaint() == std::generic_category().message(EAGAIN))
+  if (opened < 0 && last_complaint().of_system == std::generic_category().message(EAGAIN))
     throw core::InputError(file.string(), "another process has it open");
   return {file, check(opened)};
 }
@@ -338,7 +355,7 @@ std::vector<std::string> Hdf5File::read_texts(const std::string& name, std::uint
     throw core::InputError(path_.string(), "'" + name + "' holds no texts");
   std::error_code error;
   if (count > std::filesystem::file_size(path_, error) / width)
-    throw core::InputError(path_.string(), "'" + name + "' promises more than the file holds");
+    throw DamagedFile(path_.string(), "'" + name + "' promises more than the file holds");
   if (count == 0) return {};
   const Handle type(text_type(width), H5Tclose);
   std::string all(count * width, '\0');

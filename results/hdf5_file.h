@@ -6,7 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+
 namespace interflect::results {
+
+/// A file that is none of HDF5's, or of which a part is missing or wrong.
+class DamagedFile : public core::InputError {
+ public:
+  using core::InputError::InputError;
+};
 
 /// An HDF5 file, opened: arrays of numbers and lists of texts under names, without a type of the library's.  A name may
 /// lie in a group: "sensors/F".
@@ -16,7 +24,7 @@ namespace interflect::results {
 /// was never written is a hole of the file, where its system has such.
 ///
 /// Every call may come from any thread: they take turns.  What the library has to complain about comes as
-/// core::InputError with the file's name, in one line, and as nothing else.
+/// core::InputError (DamagedFile where the file is at fault) with the file's name, in one line, and as nothing else.
 class Hdf5File {
  public:
   enum class Access { read, change };

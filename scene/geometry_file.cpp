@@ -26,38 +26,19 @@ Material neutral(const std::string& name, Sides sides) {
 /// Of factors nothing but areas and distances counts: any one channel does.
 SceneBuilder plain_builder() { return SceneBuilder({"y"}, Quantity::radiometric); }
 
-/// "GROUP/MATERIAL", or what there is of it.
-std::string label_of(const io::MeshFile& mesh, const io::MeshFile::Face& face, const std::string& file) {
-  const std::string &group = mesh.groups[face.group], &material = mesh.materials[face.material];
-  if (group.empty() && material.empty()) return std::filesystem::path(file).stem().string();
-  if (group.empty() || group == material) return io::one_line(material);
-  return io::one_line(material.empty() ? group : group + "/" + material);
-}
-
-/// The mesh with every face in a group of its own, named by its position, and materials without names.
-io::MeshFile face_by_face(const io::MeshFile& mesh) {
-  io::MeshFile out = mesh;
-  out.groups.clear();
-  for (io::MeshFile::Face& face : out.faces) {
-    face.group = static_cast<std::uint32_t>(out.groups.size());
-    out.groups.push_back(std::to_string(face.group));
-  }
-  for (std::string& name : out.materials) name.clear();
-  return out;
-}
-
-/// Gives surfaces that are named by positions of faces their names and groups.
-void name_faces(Scene& scene, const io::MeshFile& mesh, std::vector<ExchangeSurface>& out, const std::string& file) {
+/// Of a mesh, surfaces by groups or by faces; faces are told apart by their numbers in the file.
+void import_exchange_mesh(SceneBuilder& builder, const io::MeshFile& mesh, const std::vector<MaterialId>& materials,
+                          io::MeshSurfaces kind, const std::string& shown, std::vector<ExchangeSurface>& out) {
+  const std::vector<std::size_t> face_of = io::import_mesh(builder, mesh, materials, {}, shown, kind);
+  std::vector<Surface>& surfaces = builder.scene().surfaces;
   std::unordered_map<std::string, std::size_t> members;
-  std::vector<std::size_t> face_of;
-  for (const Surface& surface : scene.surfaces) {
-    face_of.push_back(std::stoull(surface.name));
-    out.push_back({label_of(mesh, mesh.faces[face_of.back()], file), ExchangeRole::radiates, std::nullopt});
-    ++members[out.back().group];
+  for (const Surface& surface : surfaces) {  // each with its group's name so far
+    out.push_back({surface.name, ExchangeRole::radiates, std::nullopt});
+    ++members[surface.name];
   }
-  for (std::size_t k = 0; k < out.size(); ++k)
-    scene.surfaces[k].name =
-        members[out[k].group] == 1 ? out[k].group : out[k].group + "/" + std::to_string(face_of[k] + 1);
+  if (kind == io::MeshSurfaces::of_groups) return;
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    if (members[out[k].group] > 1) surfaces[k].name += "/" + std::to_string(face_of[k] + 1);
 }
 
 ExchangeScene read_mesh_scene(const std::filesystem::path& file, const GeometryOptions& options, Sides sides) {
@@ -65,7 +46,7 @@ ExchangeScene read_mesh_scene(const std::filesystem::path& file, const GeometryO
   io::MeshFile mesh = io::read_mesh(file, shown);
   io::Placement placement;
   if (options.unit) placement.unit = io::unit_named(*options.unit);
-  io::place_vertices(mesh, placement);
+  io::place_vertices(mesh, placement, shown);
   SceneBuilder builder = plain_builder();
   std::vector<MaterialId> materials;
   for (const std::string& name : mesh.materials) materials.push_back(builder.add_material(neutral(name, sides)));
@@ -74,14 +55,9 @@ ExchangeScene read_mesh_scene(const std::filesystem::path& file, const GeometryO
   if (mesh.single_precision)
     scene.warnings.push_back({shown, "coordinates are in single precision, as the format or its reader has them"});
   ExchangeScene out;
-  if (options.whole_groups) {
-    io::import_mesh(builder, mesh, materials, {}, shown);
-    for (const Surface& surface : scene.surfaces)
-      out.surfaces.push_back({surface.name, ExchangeRole::radiates, std::nullopt});
-  } else {
-    io::import_mesh(builder, face_by_face(mesh), materials, {}, shown);
-    name_faces(scene, mesh, out.surfaces, shown);
-  }
+  import_exchange_mesh(builder, mesh, materials,
+                       options.whole_groups ? io::MeshSurfaces::of_groups : io::MeshSurfaces::of_faces, shown,
+                       out.surfaces);
   out.scene = builder.finish(shown);
   return out;
 }
@@ -112,13 +88,26 @@ ExchangeScene read_scene_file(const std::filesystem::path& file, const GeometryO
   return out;
 }
 
+bool is_called(const ExchangeScene& from, std::size_t k, const std::string& name) {
+  return from.surfaces[k].group == name || from.scene.surfaces[k].name == name;
+}
+
+/// What shall occlude cannot all be left out; a part of a group can.
+void require_some_left(const ExchangeScene& from, const std::string& name, const std::vector<bool>& left_out,
+                       const std::string& shown) {
+  for (std::size_t k = 0; k < left_out.size(); ++k)
+    if (is_called(from, k, name) && !left_out[k]) return;
+  throw core::InputError(
+      shown, "'" + io::shown_word(name) + "' is to occlude only, and to be left out: one of the two expected");
+}
+
 /// Positions of the surfaces that a list of names and groups means.
 std::vector<bool> chosen(const ExchangeScene& from, const std::vector<std::string>& names, const std::string& shown) {
   std::vector<bool> out(from.surfaces.size());
   for (const std::string& name : names) {
     bool found = false;
     for (std::size_t k = 0; k < out.size(); ++k)
-      if (from.surfaces[k].group == name || from.scene.surfaces[k].name == name) out[k] = found = true;
+      if (is_called(from, k, name)) out[k] = found = true;
     if (found) continue;
     io::NameList known;
     for (const ExchangeSurface& surface : from.surfaces) known.index_of(surface.group);
@@ -179,6 +168,7 @@ ExchangeScene read_geometry_as_scene(const std::filesystem::path& file, const Ge
   const std::string shown = file.string();
   out.scene.file = file;
   const std::vector<bool> dark = chosen(out, options.only_occlude, shown), gone = chosen(out, options.left_out, shown);
+  for (const std::string& name : options.only_occlude) require_some_left(out, name, gone, shown);
   for (std::size_t k = 0; k < dark.size(); ++k)
     if (dark[k]) out.surfaces[k].role = ExchangeRole::only_occludes;
   if (!options.left_out.empty()) leave_out(out, gone, shown);

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "scene/io/geometry_reader.h"
+#include "scene/io/mesh_reader.h"
 #include "scene/io/question_reader.h"
 #include "scene/io/text_file.h"
 
@@ -46,7 +47,17 @@ void warn_of_oddities(Scene& scene, const std::string& name) {
         {name, core::format("the scene measures %.4g x %.4g x %.4g m: a side outside 0.1 m .. 1 km; are its "
                             "\"units\" right?",
                             size.x(), size.y(), size.z())});
-  if (scene.emitted_flux().is_zero()) scene.warnings.push_back({name, "nothing emits: everything will be dark"});
+}
+
+/// Other commands read meshes; here one would be called broken JSON.
+void require_no_mesh(const std::filesystem::path& file) {
+  std::vector<std::string> known = io::mesh_extensions();
+  known.emplace_back(".vs3");
+  const std::string extension = core::lower_case(file.extension().string());
+  if (std::find(known.begin(), known.end(), extension) != known.end())
+    throw core::InputError(file.string(),
+                           "a scene file (.json) is expected, which gives surfaces their materials, not "
+                           "geometry alone (docs/scene.md)");
 }
 
 }  // namespace
@@ -75,10 +86,16 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
 }
 
 Scene read_scene(const std::filesystem::path& file) {
+  require_no_mesh(file);
   const std::string text = io::read_bytes(file, file.string());
   Scene scene = parse_scene(text, file.string(), file.parent_path());
   scene.file = file;
   return scene;
+}
+
+void warn_of_darkness(Scene& scene) {
+  if (scene.emitted_flux().is_zero())
+    scene.warnings.push_back({scene.file.string(), "nothing emits: everything will be dark"});
 }
 
 }  // namespace interflect::scene

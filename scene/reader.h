@@ -14,4 +14,7 @@ Scene read_scene(const std::filesystem::path& file);
 /// The same from text; paths in it are relative to `folder`, and `name` stands for the file in messages.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 
+/// Adds a warning where nothing emits, which is odd of a scene that is read for its light.
+void warn_of_darkness(Scene& scene);
+
 }  // namespace interflect::scene

@@ -12,8 +12,8 @@ namespace interflect::scene::io {
 namespace {
 
 geometry::Ring read_ring(const JsonNode& node, const Placement& placement) {
-  geometry::Ring ring = node.points(3);
-  for (Vec3& x : ring) x = placement(x);
+  geometry::Ring ring;
+  for (const JsonNode& corner : node.items(3)) ring.push_back(read_place(corner, placement));
   return ring;
 }
 
@@ -83,8 +83,9 @@ void GeometryReader::read_box(const JsonNode& entry, const std::string& name) {
   if (entry.has("facing"))
     facing = entry.at("facing").one_of({"outward", "inward"}) == 0 ? Facing::outward : Facing::inward;
   const MaterialId material = materials_.use(builder_, entry.at("material"), Sides::front);
+  const Placement placement = read_placement(entry, unit_);
+  for (const char* corner : {"min", "max"}) read_place(node.at(corner), placement);
   try {
-    const Placement placement = read_placement(entry, unit_);
     builder_.add_box(name, box, material, facing, [&](const Vec3& x) { return placement(x); });
   } catch (const geometry::Defect& defect) {
     node.fail(defect.what());
@@ -102,7 +103,7 @@ void GeometryReader::read_file(const JsonNode& entry) {
   const MeshRepair repair = read_repair(entry, unit_);
 
   MeshFile mesh = read_mesh(path, shown);
-  place_vertices(mesh, placement);
+  place_vertices(mesh, placement, shown);
   if (repair.weld > 0 && repair.weld < finest_weld(mesh))
     entry.at("repair").at("weld").fail("a weld of less than 1e-15 of the coordinates is below their rounding");
   const auto materials = map_materials(entry, mesh.materials, shown);

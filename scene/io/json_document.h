@@ -55,7 +55,6 @@ class JsonNode {
   double positive() const;                          ///< finite and > 0
   int integer_in(int low, int high) const;
   Vec3 vec3() const;
-  std::vector<Vec3> points(std::size_t least) const;
   /// The position of a string among `words`.
   std::size_t one_of(const std::vector<std::string>& words) const;
 

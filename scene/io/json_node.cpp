@@ -134,12 +134,6 @@ Vec3 JsonNode::vec3() const {
   return {parts[0].number(), parts[1].number(), parts[2].number()};
 }
 
-std::vector<Vec3> JsonNode::points(std::size_t least) const {
-  std::vector<Vec3> out;
-  for (const JsonNode& node : items(least)) out.push_back(node.vec3());
-  return out;
-}
-
 std::size_t JsonNode::one_of(const std::vector<std::string>& words) const {
   const std::string word = string();
   const auto at = std::find(words.begin(), words.end(), word);

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "geometry/plane_coordinates.h"
 #include "scene/io/text_file.h"
 
 namespace interflect::scene::io {
@@ -22,13 +23,61 @@ constexpr double flatness = 1e-12;
 /// have no area.
 constexpr double resolution = 64 * std::numeric_limits<double>::epsilon();
 
-bool has_area(std::span<const Vec3> ring) {
-  if (ring.size() < 3) return false;
+/// Area at which a ring has none [m²].
+double least_area(std::span<const Vec3> ring) {
   const geometry::Box box = geometry::box_of(ring);
   const double diameter = box.diagonal().norm(),
                distance = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  return geometry::vector_area(ring).norm() > diameter * std::max(flatness * diameter, resolution * distance);
+  return diameter * std::max(flatness * diameter, resolution * distance);
 }
+
+bool has_area(std::span<const Vec3> ring) {
+  return ring.size() >= 3 && geometry::vector_area(ring).norm() > least_area(ring);
+}
+
+/// Whether a ring without area is no line, but has edges that cross, such that its loops cancel.
+bool is_bow_tie(std::span<const Vec3> ring) {
+  const std::size_t n = ring.size();
+  Vec3 normal = Vec3::Zero();  // of the largest triangle at the first corner
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    const Vec3 turn = (ring[k] - ring[0]).cross(ring[k + 1] - ring[0]);
+    if (turn.squaredNorm() > normal.squaredNorm()) normal = turn;
+  }
+  const double least = 2 * least_area(ring);
+  if (normal.norm() <= least) return false;
+  const geometry::AxisShadow shadow(normal);
+  const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const Vec2 ab = shadow(ring[b]) - shadow(ring[a]), ac = shadow(ring[c]) - shadow(ring[a]);
+    const double twice = ab.x() * ac.y() - ab.y() * ac.x();
+    return twice > least ? 1 : twice < -least ? -1 : 0;
+  };
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t c = a + 2; c < n; ++c) {
+      const std::size_t b = (a + 1) % n, d = (c + 1) % n;
+      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+    }
+  return false;
+}
+
+/// Faces of which something is said: how many, and the names of the first.
+class NotedFaces {
+ public:
+  bool names_more() const { return count_ < most; }
+  void add(const std::string& name) {
+    if (names_more()) names_ += (count_ == 0 ? "" : ", ") + name;
+    ++count_;
+  }
+  std::size_t count() const { return count_; }
+  /// "2 degenerate faces dropped: box/4, box/7".
+  std::string text(const char* one, const char* many) const {
+    return core::format("%zu %s: ", count_, count_ == 1 ? one : many) + names_ + (count_ > most ? ", .." : "");
+  }
+
+ private:
+  static constexpr std::size_t most = 3;
+  std::size_t count_ = 0;
+  std::string names_;
+};
 
 /// A planar convex quad in two halves at its shorter diagonal; nothing if it is not one.
 std::optional<Triangles> split_quad(const geometry::Ring& r) {
@@ -47,30 +96,29 @@ std::optional<Triangles> split_quad(const geometry::Ring& r) {
 class MeshImport {
  public:
   MeshImport(SceneBuilder& builder, const MeshFile& mesh, const std::vector<MaterialId>& materials,
-             const MeshRepair& repair, const std::string& shown)
-      : builder_(builder), mesh_(mesh), materials_(materials), repair_(repair), shown_(shown) {}
+             const MeshRepair& repair, const std::string& shown, MeshSurfaces surfaces)
+      : builder_(builder), mesh_(mesh), materials_(materials), repair_(repair), shown_(shown), surfaces_(surfaces) {}
 
-  void run() {
+  std::vector<std::size_t> run() {
     for (const MeshFile::Face& face : mesh_.faces) add(face);
     for (auto& part : parts_) finish(part);
-    const auto note = [&](std::size_t count, const char* one, const char* many) {
-      if (count > 0)
-        builder_.scene().repairs.push_back({shown_, core::format("%zu %s", count, count == 1 ? one : many)});
+    const auto say = [&](std::vector<Note>& notes, const NotedFaces& faces, const char* one, const char* many) {
+      if (faces.count() > 0) notes.push_back({shown_, faces.text(one, many)});
     };
-    note(degenerate_, "degenerate face dropped", "degenerate faces dropped");
-    note(duplicate_, "duplicate face dropped", "duplicate faces dropped");
-    note(bent_, "face that is not planar split into triangles", "faces that are not planar split into triangles");
-    note(crossing_, "face that crosses itself split as a fan", "faces that cross themselves split as fans");
-    if (reversed_ > 0)
-      builder_.scene().warnings.push_back(
-          {shown_, core::format("%zu faces lie on others that face the other way", reversed_)});
-    if (builder_.scene().surfaces.size() == first_surface_)
-      throw core::InputError(shown_, "no face with an area is left");
+    auto& repairs = builder_.scene().repairs;
+    say(repairs, degenerate_, "degenerate face dropped", "degenerate faces dropped");
+    say(repairs, duplicate_, "duplicate face dropped", "duplicate faces dropped");
+    say(repairs, bent_, "face that is not planar split into triangles",
+        "faces that are not planar split into triangles");
+    say(builder_.scene().warnings, reversed_, "face lies on another that faces the other way",
+        "faces lie on others that face the other way");
+    if (first_face_.empty()) throw core::InputError(shown_, "no face with an area is left");
+    return std::move(first_face_);
   }
 
  private:
   struct Part {
-    std::uint32_t group, material;
+    const MeshFile::Face* first;
     Triangles triangles;
     std::size_t faces = 0;
     geometry::Ring only;  ///< the corners of its face, if it has one and that is a planar polygon
@@ -86,26 +134,44 @@ class MeshImport {
     return ring;
   }
 
+  std::size_t position_of(const MeshFile::Face& face) const {
+    return static_cast<std::size_t>(&face - mesh_.faces.data());
+  }
+  /// With its number in the file.
+  std::string name_of(const MeshFile::Face& face) const {
+    return shown_word(label_of(mesh_, face, shown_)) + core::format("/%zu", position_of(face) + 1);
+  }
+  void note(NotedFaces& faces, const MeshFile::Face& face) const {
+    faces.add(faces.names_more() ? name_of(face) : std::string());
+  }
+
   void add(const MeshFile::Face& face) {
     const geometry::Ring ring = ring_of(face);
-    if (ring.size() < 3 || !has_area(ring)) return drop_degenerate(face);
+    if (!has_area(ring)) {
+      if (ring.size() > 3 && is_bow_tie(ring)) fail_crossing(face);
+      return drop_degenerate(face);
+    }
     if (repeats_another(face, ring)) return;
     Part& part = part_of(face);
     if (part.faces++ == 0) part.only = ring;
     const std::size_t before = part.triangles.size();
-    if (!triangulate(ring, part.triangles)) part.only.clear();
+    if (!triangulate(face, ring, part.triangles)) part.only.clear();
     if (part.triangles.size() == before) drop_degenerate(face);
   }
 
   void drop_degenerate(const MeshFile::Face& face) {
     if (!repair_.drop_degenerate)
-      throw core::InputError(shown_, core::format("face %td has no area (\"drop_degenerate\" would drop it)",
-                                                  &face - mesh_.faces.data() + 1));
-    ++degenerate_;
+      throw core::InputError(shown_, "the face " + name_of(face) + " has no area (\"drop_degenerate\" would drop it)");
+    note(degenerate_, face);
+  }
+
+  [[noreturn]] void fail_crossing(const MeshFile::Face& face) const {
+    throw core::InputError(shown_, "the face " + name_of(face) +
+                                       " crosses itself: what it encloses is not defined; are its corners in order?");
   }
 
   /// Appends a face's triangles; false if it is not a planar polygon.
-  bool triangulate(const geometry::Ring& ring, Triangles& out) {
+  bool triangulate(const MeshFile::Face& face, const geometry::Ring& ring, Triangles& out) {
     const auto append = [&](const Triangles& triangles) {  // without the slivers beside a corner in mid-edge
       for (const geometry::TriangleCorners& t : triangles)
         if (has_area(t)) out.push_back(t);
@@ -120,7 +186,7 @@ class MeshImport {
         return true;
       }
     const bool planar = geometry::relative_planarity_error({ring, {}}) <= geometry::planarity_tolerance;
-    bent_ += !planar;
+    if (!planar) note(bent_, face);
     try {
       const Triangles cut = geometry::triangulate_face(ring);
       if (planar || cut.size() == ring.size() - 2) {  // fewer: it is bent so far that parts of it stand upright
@@ -128,7 +194,7 @@ class MeshImport {
         return planar;
       }
     } catch (const geometry::Defect&) {
-      ++crossing_;
+      fail_crossing(face);
     }
     Triangles fan;
     for (std::size_t k = 1; k + 1 < ring.size(); ++k) fan.push_back({ring[0], ring[k], ring[k + 1]});
@@ -175,10 +241,10 @@ class MeshImport {
       const bool harmless =
           way > 0 || (material == materials_[other->material] && all[material.value].sides == Sides::both);
       if (harmless && repair_.drop_duplicate) {
-        ++duplicate_;
+        note(duplicate_, face);
         return true;
       }
-      reversed_ += way < 0;
+      if (way < 0) note(reversed_, face);
       break;
     }
     same_key.push_back(&face);
@@ -186,22 +252,17 @@ class MeshImport {
   }
 
   Part& part_of(const MeshFile::Face& face) {
-    const auto [at, is_new] = part_at_.try_emplace({face.group, face.material}, parts_.size());
-    if (is_new) parts_.push_back({face.group, face.material, {}, 0, {}});
-    return parts_[at->second];
-  }
-
-  std::string name_of(const Part& part) const {
-    const std::string &group = mesh_.groups[part.group], &material = mesh_.materials[part.material];
-    if (group.empty() && material.empty()) return std::filesystem::path(shown_).stem().string();
-    if (group.empty() || group == material) return material;
-    return material.empty() ? group : group + "/" + material;
+    std::size_t at = parts_.size();
+    if (surfaces_ == MeshSurfaces::of_groups) at = part_at_.try_emplace({face.group, face.material}, at).first->second;
+    if (at == parts_.size()) parts_.push_back({&face, {}, 0, {}});
+    return parts_[at];
   }
 
   void finish(const Part& part) {
     if (part.triangles.empty()) return;
-    const std::string name = one_line(name_of(part));
-    const MaterialId material = materials_[part.material];
+    first_face_.push_back(position_of(*part.first));
+    const std::string name = label_of(mesh_, *part.first, shown_);
+    const MaterialId material = materials_[part.first->material];
     if (part.faces == 1 && !part.only.empty()) {
       try {
         builder_.add_polygon(name, {part.only, {}}, material);
@@ -217,18 +278,27 @@ class MeshImport {
   const std::vector<MaterialId>& materials_;
   const MeshRepair& repair_;
   const std::string& shown_;
-  std::size_t first_surface_ = builder_.scene().surfaces.size();
+  const MeshSurfaces surfaces_;
   std::vector<Part> parts_;
+  std::vector<std::size_t> first_face_;  ///< of each new surface
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> part_at_;
   std::unordered_map<std::size_t, std::vector<const MeshFile::Face*>> seen_;
-  std::size_t degenerate_ = 0, duplicate_ = 0, reversed_ = 0, bent_ = 0, crossing_ = 0;
+  NotedFaces degenerate_, duplicate_, reversed_, bent_;
 };
 
 }  // namespace
 
-void import_mesh(SceneBuilder& builder, const MeshFile& mesh, const std::vector<MaterialId>& materials,
-                 const MeshRepair& repair, const std::string& shown) {
-  MeshImport(builder, mesh, materials, repair, shown).run();
+std::string label_of(const MeshFile& mesh, const MeshFile::Face& face, const std::string& shown) {
+  const std::string &group = mesh.groups[face.group], &material = mesh.materials[face.material];
+  if (group.empty() && material.empty()) return one_line(std::filesystem::path(shown).stem().string());
+  if (group.empty() || group == material) return one_line(material);
+  return one_line(material.empty() ? group : group + "/" + material);
+}
+
+std::vector<std::size_t> import_mesh(SceneBuilder& builder, const MeshFile& mesh,
+                                     const std::vector<MaterialId>& materials, const MeshRepair& repair,
+                                     const std::string& shown, MeshSurfaces surfaces) {
+  return MeshImport(builder, mesh, materials, repair, shown, surfaces).run();
 }
 
 }  // namespace interflect::scene::io

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/error.h"
+#include "core/format.h"
 #include "scene/io/mesh_import.h"
 
 namespace interflect::scene::io {
@@ -52,8 +54,12 @@ class WeldGrid {
 
 }  // namespace
 
-void place_vertices(MeshFile& mesh, const Placement& placement) {
-  for (Vec3& x : mesh.vertices) x = placement(x);
+void place_vertices(MeshFile& mesh, const Placement& placement, const std::string& shown) {
+  for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
+    Vec3& x = mesh.vertices[k];
+    x = placement(x);
+    if (!is_within_reach(x)) throw core::InputError(shown, core::format("vertex %zu ", k + 1) + out_of_reach(x));
+  }
 }
 
 double finest_weld(const MeshFile& mesh) {

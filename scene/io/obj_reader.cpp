@@ -47,30 +47,29 @@ std::string plain_lines(std::string text) {
   return text;
 }
 
-/// Lines with the key of a face and nothing behind it: the library passes them over.
-std::size_t lone_face_keys(std::string_view text) {
-  std::size_t count = 0;
+/// Where the first line is that has the key of a face and nothing behind it: the library passes it over.
+std::size_t lone_face_key(std::string_view text) {
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const std::string_view line = text.substr(start, end - start);
     const std::size_t key = line.find_first_not_of(" \t");
-    count += key != std::string_view::npos && line[key] == 'f' &&
-             line.find_first_not_of(" \t", key + 1) == std::string_view::npos;
+    if (key != std::string_view::npos && line[key] == 'f' &&
+        line.find_first_not_of(" \t", key + 1) == std::string_view::npos)
+      return start;
     start = end + 1;
   }
-  return count;
+  return std::string_view::npos;
 }
+
+std::string too_few(std::size_t corners) { return core::format("a face has three corners or more, not %zu", corners); }
 
 class ObjBuilder {
  public:
   ObjBuilder(std::string text, std::string shown)
-      : original_(std::move(text)),
-        text_(plain_lines(original_)),
-        shown_(std::move(shown)),
-        buffer_(text_),
-        ignored_(lone_face_keys(text_)) {}
+      : original_(std::move(text)), text_(plain_lines(original_)), shown_(std::move(shown)), buffer_(text_) {}
 
   MeshFile build() {
+    const std::size_t lone = lone_face_key(text_);
     std::istream stream(&buffer_);
     tinyobj::callback_t callbacks;
     callbacks.vertex_cb = [](void* self, double, double, double, double) { static_cast<ObjBuilder*>(self)->vertex(); };
@@ -87,7 +86,7 @@ class ObjBuilder {
       static_cast<ObjBuilder*>(self)->group({names, static_cast<std::size_t>(count)});
     };
     tinyobj::LoadObjWithCallback(stream, callbacks, this);
-    if (ignored_ > 0) mesh_.notes.push_back(core::format("%zu face(s) of fewer than three corners ignored", ignored_));
+    if (lone != std::string::npos) fail_at(lone, too_few(0));
     mesh_.groups = groups_.names();
     mesh_.materials = materials_.names();
     return std::move(mesh_);
@@ -103,10 +102,13 @@ class ObjBuilder {
     return text.substr(before + 1, end - before - 1);  // npos + 1 is 0
   }
 
-  [[noreturn]] void fail(const std::string& message) const {
-    const auto start = line().data() - text_.data();
-    const auto number = 1 + std::count(original_.begin(), original_.begin() + start, '\n');
+  [[noreturn]] void fail_at(std::size_t start, const std::string& message) const {
+    const auto before = original_.begin() + static_cast<std::ptrdiff_t>(start);
+    const auto number = 1 + std::count(original_.begin(), before, '\n');
     throw core::InputError(core::format("%s:%td", shown_.c_str(), number), message);
+  }
+  [[noreturn]] void fail(const std::string& message) const {
+    fail_at(static_cast<std::size_t>(line().data() - text_.data()), message);
   }
 
   double coordinate(std::string_view& rest) const {
@@ -132,10 +134,7 @@ class ObjBuilder {
   }
 
   void face(std::span<const tinyobj::index_t> corners) {
-    if (corners.size() < 3) {
-      ++ignored_;
-      return;
-    }
+    if (corners.size() < 3) fail(too_few(corners.size()));
     require_short_numbers();
     const auto count = static_cast<std::int64_t>(mesh_.vertices.size());
     const auto first = static_cast<std::uint32_t>(mesh_.indices.size());
@@ -176,7 +175,6 @@ class ObjBuilder {
   MeshFile mesh_;
   NameList groups_, materials_;
   std::string group_, material_;
-  std::size_t ignored_;  ///< faces of fewer than three corners
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "scene/io/text_file.h"
 
 namespace interflect::scene::io {
@@ -46,6 +47,17 @@ LengthUnit unit_named(const std::string& name) {
   for (std::size_t k = 0; k < units.size(); ++k)
     if (name == unit_names[k]) return units[k];
   throw core::InputError(unknown_word("the unit", name, {unit_names.begin(), unit_names.end()}));
+}
+
+std::string out_of_reach(const Vec3& x) {
+  return core::format("lies at (%.6g, %.6g, %.6g) m: at most %.0e m from 0 along each axis expected", x.x(), x.y(),
+                      x.z(), furthest);
+}
+
+Vec3 read_place(const JsonNode& node, const Placement& placement) {
+  const Vec3 x = placement(node.vec3());
+  if (!is_within_reach(x)) node.fail("it " + out_of_reach(x));
+  return x;
 }
 
 Placement read_placement(const JsonNode& entry, const LengthUnit& unit) {

@@ -31,6 +31,18 @@ struct Placement {
   Vec3 operator()(const Vec3& x) const { return unit.metres(Vec3(linear * x + translation)); }
 };
 
+/// Places beyond it, along any axis, are refused [m]: soon after, at 2^53 m, a double no longer resolves a metre; and
+/// products of lengths, up to squares of volumes, stay far from overflow.
+inline constexpr double furthest = 1e15;
+/// Infinite and undefined ones are not.
+inline bool is_within_reach(const Vec3& x) { return (x.cwiseAbs().array() <= furthest).all(); }
+/// "lies at (1e+100, 0, 0) m: ..".
+std::string out_of_reach(const Vec3& x);
+
+/// A place in the scene.
+/// @throws core::InputError  where it is out of reach
+Vec3 read_place(const JsonNode& node, const Placement& placement);
+
 /// The key "transform" of a geometry entry, where it has one: scaled, then turned about x, y and z of the scene, in
 /// this order, then moved.  Multiples of 90 degrees are exact.
 Placement read_placement(const JsonNode& entry, const LengthUnit& unit);

@@ -20,6 +20,12 @@ Vec3 read_direction(const JsonNode& node) {
   return direction / length;
 }
 
+Vec3 read_place(const JsonNode& node, const LengthUnit& unit) {
+  Placement placement;
+  placement.unit = unit;
+  return read_place(node, placement);
+}
+
 std::variant<double, Eigen::Array2i> read_step(const JsonNode& grid, const LengthUnit& unit) {
   if (grid.has("counts")) {
     const auto counts = grid.at("counts").items(2, 2);
@@ -42,7 +48,7 @@ SensorGrid read_grid(const JsonNode& sensor, const LengthUnit& unit) {
   const JsonNode node = sensor.at("grid");
   node.only({"origin", "u", "v", "spacing", "counts"});
   SensorGrid grid{
-      unit.metres(node.at("origin").vec3()), unit.metres(node.at("u").vec3()), unit.metres(node.at("v").vec3()), {}, 0};
+      read_place(node.at("origin"), unit), read_place(node.at("u"), unit), read_place(node.at("v"), unit), {}, 0};
   const double u = grid.u.norm(), v = grid.v.norm();
   if (!(u > 0)) node.at("u").fail("a side of a grid has a length");
   if (!(v > 0)) node.at("v").fail("a side of a grid has a length");
@@ -70,8 +76,8 @@ Sensor read_sensor(const JsonNode& node, const LengthUnit& unit) {
     return sensor;
   }
   if (node.has("exclude_border")) node.at("exclude_border").fail("only a grid has a border");
-  std::vector<Vec3> points = node.at("points").points(1);
-  for (Vec3& x : points) x = unit.metres(x);
+  std::vector<Vec3> points;
+  for (const JsonNode& point : node.at("points").items(1)) points.push_back(read_place(point, unit));
   sensor.where = std::move(points);
   return sensor;
 }
@@ -80,8 +86,8 @@ Camera read_camera(const JsonNode& node, const LengthUnit& unit, const Scene& sc
   node.only({"name", "eye", "target", "up", "fov_y_deg", "size"});
   Camera camera;
   camera.name = node.has("name") ? node.at("name").string() : core::format("camera-%zu", scene.cameras.size() + 1);
-  camera.eye = unit.metres(node.at("eye").vec3());
-  camera.target = unit.metres(node.at("target").vec3());
+  camera.eye = read_place(node.at("eye"), unit);
+  camera.target = read_place(node.at("target"), unit);
   if (camera.eye == camera.target) node.fail("the camera looks at itself: eye and target are the same point");
   camera.up = node.has("up") ? read_direction(node.at("up")) : scene.up;
   const Vec3 forward = (camera.target - camera.eye).stableNormalized();

@@ -58,15 +58,17 @@ class View3dReader {
   View3dReader(std::string_view text, const std::string& shown) : lines_(text), shown_(shown) {}
 
   std::vector<View3dSurface> run() {
-    while (const auto line = lines_.next()) {
+    bool ended = false;
+    while (const auto line = ended ? std::nullopt : lines_.next()) {
       line_ = *line;
       at_ = 0;
       const char key = static_cast<char>(std::toupper(static_cast<unsigned char>(word("a key")[0])));
-      if (key == 'E' || key == '*') break;
-      if (key == 'T' || key == 'C' || key == 'X') continue;
+      ended = key == 'E' || key == '*';
+      if (ended || key == 'T' || key == 'C' || key == 'X') continue;
       read(key);
     }
     if (surfaces_.empty()) throw core::InputError(shown_, "the file has no surfaces");
+    if (!ended) fail_at(lines_.number(), "the file ends without a line 'End of data': it may have been cut short");
     for (std::size_t k = 0; k < surfaces_.size(); ++k) check(k + 1);
     return std::move(surfaces_);
   }

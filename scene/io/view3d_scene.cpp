@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "geometry/box.h"
+#include "scene/io/placement.h"
 
 namespace interflect::scene::io {
 namespace {
@@ -100,6 +101,8 @@ class View3dImport {
   }
 
   void require_polygon(std::size_t k) const {
+    for (const Vec3& x : surfaces_[k].ring)
+      if (!is_within_reach(x)) fail(k, "cannot be used: a corner " + out_of_reach(x));
     try {
       geometry::require_valid({surfaces_[k].ring, {}});
     } catch (const geometry::Defect& defect) {

@@ -204,8 +204,8 @@ TEST(BadGeometry, faces_without_area_are_dropped_with_a_count_or_refused_by_name
   const Outcome run = interflect(
       {"view-factors", folder.write("mesh.obj", obj_of({line, point, square, square, lid})), "-o", folder / "F.csv"});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.err.find("2 degenerate faces dropped"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("1 duplicate face dropped"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("2 degenerate faces dropped: face0/1, face1/2"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("1 duplicate face dropped: face3/4"), std::string::npos) << run.err;
   EXPECT_EQ(entries_of(read_file(folder / "F.csv")).size(), 2u);
   View3dText text;
   text.polygon('S', line, "thread");

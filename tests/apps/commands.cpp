@@ -35,10 +35,12 @@ TEST(Program, says_what_it_is) {
 }
 
 TEST(Program, each_command_has_help_with_an_example) {
-  for (const char* command : {"solve", "validate", "trace", "info", "check"}) {
+  for (const char* command :
+       {"solve", "validate", "trace", "view-factors", "compare-form-factors", "exchange", "info", "check"}) {
     const Outcome help = interflect({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_TRUE(contains(help.out, "Example:\n  interflect " + std::string(command))) << help.out;
+    EXPECT_FALSE(contains(help.out, "{false}")) << help.out;
   }
 }
 

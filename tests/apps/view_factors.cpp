@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -52,6 +54,57 @@ TEST(ViewFactors, are_written_in_every_format_and_summed_by_group) {
   EXPECT_NEAR(low, 1, 1e-4);
 }
 
+/// Sums of rows, what reaches no element among them, and the largest error of an entry between elements.
+struct Rows {
+  std::map<std::string, double> sum, environment;
+  double largest_error = 0;
+};
+Rows rows_of(const std::string& csv) {
+  Rows rows;
+  for (const auto& [pair, entry] : entries_of(csv)) {
+    rows.sum[pair.first] += entry.F;
+    if (pair.second == "environment") {
+      rows.environment[pair.first] = entry.F;
+      EXPECT_GT(entry.error, 0);
+    } else {
+      rows.largest_error = std::max(rows.largest_error, entry.error);
+    }
+  }
+  return rows;
+}
+
+// The cube without its last wall, which the floor opposite would send 0.1998 to and the others 0.2000.
+TEST(ViewFactors, are_repaired_on_request_with_the_environment_as_a_column) {
+  const TemporaryFolder folder;
+  const std::string open = folder.write("open.obj", cube.substr(0, cube.rfind("f 4"))),
+                    closed = folder.write("cube.obj", cube);
+  for (const char* closure : {"scaling", "least-squares"})
+    for (const char* method : {"analytic", "hemisphere-rays"}) {
+      const bool exact = std::string(method) == "analytic";
+      const std::string out = folder / (std::string(closure) + method + ".csv");
+      const std::vector<std::string> command{
+          "view-factors",   open,   "-o",        out,    "--closure",   closure,
+          "--form-factors", method, "--samples", "4096", "--tolerance", exact ? "1e-7" : "0.1"};
+      const Outcome run = interflect(command);
+      ASSERT_EQ(run.status, 0) << run.err;
+      EXPECT_TRUE(contains(run.out, " of what leaves reaches no element")) << run.out;
+      const Rows rows = rows_of(read_file(out));
+      ASSERT_EQ(rows.environment.size(), 5u);
+      for (const auto& [i, sum] : rows.sum) {
+        EXPECT_NEAR(sum, 1, 1e-12) << i;
+        EXPECT_NEAR(rows.environment.at(i), i == "4" ? 0.19982489569838738 : 0.20004377607540315, exact ? 1e-6 : 0.02);
+      }
+      EXPECT_LT(rows.largest_error, exact ? 1e-7 : 0.05);
+      EXPECT_TRUE(contains(interflect(command).out, "has them already"));
+      EXPECT_EQ(interflect({"view-factors", closed, "-o", folder / "C.csv", "--closure", closure, "--form-factors",
+                            method, "--samples", "4096", "--tolerance", "0.1"})
+                    .status,
+                0);
+      for (const auto& [i, sum] : rows_of(read_file(folder / "C.csv")).sum) EXPECT_NEAR(sum, 1, 1e-12) << i;
+      EXPECT_FALSE(contains(read_file(folder / "C.csv"), "environment")) << "it is closed";
+    }
+}
+
 // The two walls of a group: what one sees of the other, and what all others see of both.
 TEST(ViewFactors, to_one_surface_are_drawn_with_their_errors) {
   const TemporaryFolder folder;
@@ -93,7 +146,10 @@ TEST(ViewFactors, serve_a_solve_of_the_same_geometry_and_no_other) {
   const Outcome other = interflect({"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "-o",
                                     folder / "other", "--factors", factors});
   EXPECT_EQ(other.status, 2);
-  EXPECT_TRUE(contains(other.err, "F.h5")) << other.err;
+  EXPECT_TRUE(contains(other.err,
+                       "F.h5: it has the view factors of 96 elements, and the scene is cut into 24: the "
+                       "--element-size of that run, and the same scene, expected"))
+      << other.err;
 }
 
 // What the heater gives, less what the walls take, goes into the load and out of the door.
@@ -125,13 +181,17 @@ TEST(Exchange, of_the_oven_balances) {
   EXPECT_TRUE(said.at("form_factors").at("tolerance_met").get<bool>());
   const Outcome rough = interflect({"exchange", shipped_scene("oven"), "-o", folder / "rough", "--element-size", "0.2",
                                     "--no-pictures", "--form-factors", "hemisphere-rays", "--samples", "400",
-                                    "--tolerance", "1e-6", "--closure", "scaling", "--json"});
+                                    "--tolerance", "1e-6", "--closure", "scaling", "--json", "--quiet"});
   EXPECT_EQ(rough.status, 1);
-  EXPECT_TRUE(contains(rough.err, "less accurate than asked")) << rough.err;
+  EXPECT_TRUE(contains(rough.err, "less accurate than asked: sum_j |dF_ij| is up to ")) << rough.err;
+  EXPECT_TRUE(contains(rough.err, ", 1.0e-06 asked for")) << rough.err;
   EXPECT_GT(nlohmann::json::parse(rough.out).at("form_factors").at("closure_correction").get<double>(), 0);
   const Outcome lit = interflect({"exchange", shipped_scene("cube"), "-o", folder / "lit"});
   EXPECT_EQ(lit.status, 2);
-  EXPECT_TRUE(contains(lit.err, "an emissivity with a temperature or a heat flux expected")) << lit.err;
+  EXPECT_TRUE(contains(lit.err,
+                       "cube.json: an exchange needs an emissivity, with a temperature or a heat_flux, of every "
+                       "material: missing of '"))
+      << lit.err;
 }
 
 TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
@@ -152,6 +212,29 @@ TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
             (std::set<std::string>{"analytic", "area-to-area", "gauss-lambert", "global-lines", "hemicube",
                                    "hemicube-max", "hemicube-midpoint", "hemisphere-rays", "hybrid", "single-plane"}));
   EXPECT_TRUE(contains(read_file(folder / "out/form_factors.csv"), "method,setting,seconds,"));
+}
+
+TEST(Scenes, are_expected_where_a_mesh_does_not_do) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", cube);
+  for (const char* command : {"exchange", "compare-form-factors", "solve"}) {
+    const Outcome run = interflect({command, mesh, "-o", folder / "out"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_TRUE(contains(run.err, "cube.obj: a scene file (.json) is expected, which gives surfaces their materials"))
+        << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  }
+}
+
+TEST(ViewFactors, of_a_dark_scene_need_no_light) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("dark.json", R"({"format": "interflect/scene/1", "units": "m",
+    "materials": {"grey": {"reflectance": 0.5}},
+    "geometry": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}, "facing": "inward", "material": "grey"}]})");
+  const Outcome factors = interflect({"view-factors", scene, "-o", folder / "F.csv"});
+  EXPECT_EQ(factors.status, 0);
+  EXPECT_FALSE(contains(factors.err, "nothing emits")) << factors.err;
+  EXPECT_TRUE(contains(interflect({"info", scene}).err, "nothing emits"));
 }
 
 // What a stopped run has written is not computed again, and the result is that of a run that was not stopped.
@@ -186,7 +269,9 @@ TEST(ViewFactors, of_what_is_none_are_refused_in_one_line) {
            {{"view-factors", mesh, "-o", folder / "F.txt"}, "one of .h5, .npz, .mtx, .csv expected"},
            {{"view-factors", mesh, "-o", folder / "F.h5", "--groups", "group"}, "--groups writes .csv"},
            {{"view-factors", mesh, "-o", folder / "F.h5", "--units", "parsec"}, "parsec"},
-           {{"view-factors", mesh, "-o", folder / "F.h5", "--only-occlude", "lamp"}, "lamp"}}) {
+           {{"view-factors", mesh, "-o", folder / "F.h5", "--only-occlude", "lamp"}, "lamp"},
+           {{"view-factors", mesh, "-o", folder / "F.h5", "--only-occlude", "high", "--leave-out", "high"},
+            "'high' is to occlude only, and to be left out"}}) {
     const Outcome run = interflect(arguments);
     EXPECT_EQ(run.status, 2) << run.err;
     EXPECT_TRUE(contains(run.err, said)) << run.err;

@@ -48,19 +48,21 @@ Problem problem(Index n, double amount, std::uint64_t seed, double open = 0, dou
     }
   core::LocalRun run(1, 1);
   const std::vector<double> sums = p.pair.K->row_sums(run);
-  std::vector<double> off;
+  std::vector<double> seen;  // that rows are off by, beyond the environment's noise
   for (Index a = 0; a < n; ++a) {
     const double sum = sums[static_cast<std::size_t>(a)];
-    off.push_back(1 - sum);
-    if (open == 0) continue;
+    if (open == 0) {
+      seen.push_back(std::abs(1 - sum));
+      continue;
+    }
     const double factor = std::clamp(1 - sum + 0.04 * (random.next() - 0.5), 0.0, 1.0), error = 0.02;
     p.environment.factor.push_back(factor);
     p.environment.standard_error.push_back(error);
-    off.back() -= factor;
+    seen.push_back(std::max(0.0, std::abs(1 - sum - factor) - 3 * error));
     p.Z(a) = factor * p.pair.areas(a);
     p.v(a) = std::pow(error * p.pair.areas(a), 2);
   }
-  const EntryVariances variances = entry_variances(*p.pair.K, {}, off, sums, run.get());
+  const EntryVariances variances = entry_variances(*p.pair.K, {}, seen, sums, run.get());
   for (Index a = 0; a < n; ++a)
     for (Index b = 0; b < n; ++b)
       p.w(a, b) = variances(

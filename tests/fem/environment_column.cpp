@@ -152,6 +152,44 @@ TEST(ClosureRepairs, bring_an_open_cube_nearer_to_its_closed_form) {
   }
 }
 
+// The environment's rays are noisier than exact entries by ten thousand times, and give way: entries stay where they
+// were to within what they err.
+TEST(ClosureRepairs, leave_exact_factors_of_an_open_scene_as_they_are) {
+  const OpenCube cube(4);
+  core::LocalRun run(1, 2);
+  const auto n = static_cast<Index>(cube.patches.size());
+  const EnvironmentColumn column = cast_environment_column(*cube.scene, cube.patches, *cube.rays, 1296, run);
+  const std::vector<double> bound(static_cast<std::size_t>(n), 1e-8);
+  for (const std::string& name : closure_names()) {
+    DenseSymmetric K(OpenCube::areas_of(cube.patches));
+    for (Index a = 0; a < n; ++a)
+      for (Index b = a; b < n; ++b) K.add(a, b, {cube.exact_K(a, b), 0, 0});
+    const ClosureReport report = restore_closure(K, run, {.method = name, .row_bound = bound, .environment = &column});
+    EXPECT_TRUE(report.converged);
+    EXPECT_GT(report.row_error_before, 1e-3) << "what the rays are off by";
+    EXPECT_LT(report.correction, 1e-8) << name;
+    for (std::size_t a = 0; a < cube.exact.size(); ++a) EXPECT_NEAR(report.environment[a], cube.exact[a], 1e-7) << name;
+  }
+}
+
+// What obstacles without elements get is gone, too.
+TEST(EnvironmentColumn, holds_what_falls_on_surfaces_without_elements) {
+  core::LocalRun run(1, 2);
+  Room room;
+  room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2);
+  room.wall({-50, -50, 1}, {0, 100, 0}, {100, 0, 0}, 1);  // looks down
+  const scene::Scene scene = room.finish();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  const std::span<const scene::SurfacePatch> floor = std::span(room.patches).first(4);
+  const EnvironmentColumn all = cast_environment_column(scene, room.patches, *rays, 256, run);
+  const EnvironmentColumn of_floor = cast_environment_column(scene, floor, *rays, 256, run);
+  for (std::size_t a = 0; a < 4; ++a) {
+    EXPECT_LT(all.factor[a], 0.01);
+    EXPECT_EQ(of_floor.factor[a], 1);
+  }
+  EXPECT_FALSE(is_closed(of_floor));
+}
+
 /// A whole solve of an open scene: its rows and its environment add up to 1, and nothing is kept inside that would
 /// leave, nor let out that would not: what was dropped, a tenth of the rows, is not taken for an opening.
 TEST(ClosureRepairs, of_an_open_scene_keep_its_energy_in_balance) {

@@ -224,6 +224,32 @@ TEST(FactorExport, groups_are_sums_weighted_by_area_with_quoted_names) {
   EXPECT_THROW(write_grouped_factors_csv(scratch / "G.csv", elements, rows, {}), core::PreconditionError);
 }
 
+// One more column: 0.6 and 0.2 of what each element sends.
+TEST(FactorExport, an_environment_is_a_column_of_its_own) {
+  const test::TemporaryFolder scratch;
+  FactorElements elements;
+  elements.area = {1, 2};
+  elements.normal = elements.centroid = {Vec3::UnitX(), Vec3::UnitX()};
+  elements.name = {"a", "a"};
+  elements.environment = {0.5, 0.75};
+  elements.environment_error = {0.25, 0.125};
+  const FactorRows rows = [](Index i, std::span<double> F, std::span<double> error) {
+    for (std::size_t j = 0; j < 2; ++j) F[j] = Index(j) == i ? 0 : 0.5 / double(i + 1), error[j] = 0;
+  };
+  write_factors_csv(scratch / "F.csv", elements, rows);
+  EXPECT_EQ(test::read_file(scratch / "F.csv"),
+            "i,j,F,error\n0,1,0.5,0\n0,environment,0.5,0.25\n1,0,0.25,0\n1,environment,0.75,0.125\n");
+  write_grouped_factors_csv(scratch / "G.csv", elements, rows, elements.name);
+  EXPECT_EQ(test::read_file(scratch / "G.csv"),
+            "from,to,F,error\na,a,0.33333333333333331,0\na,environment,0.66666666666666663,0.16666666666666666\n");
+  write_factors_npz(scratch / "F.npz", elements, rows);
+  const auto arrays = arrays_of(test::read_file(scratch / "F.npz"));
+  ASSERT_EQ(arrays.size(), 10u);
+  EXPECT_EQ(arrays[8].first, "environment.npy");
+  EXPECT_EQ(doubles(arrays[8].second.data), elements.environment);
+  EXPECT_EQ(doubles(arrays[9].second.data), elements.environment_error);
+}
+
 TEST(FactorExport, points_are_rows_of_their_own_in_every_format) {
   const test::TemporaryFolder scratch;
   const Matrix matrix(3);

@@ -91,6 +91,22 @@ TEST(FactorStore, gives_back_what_was_written_to_the_last_bit) {
     }
 }
 
+TEST(FactorStore, keeps_what_reaches_no_element_and_goes_on_with_no_other) {
+  const test::TemporaryFolder scratch;
+  Matrix matrix(5);
+  matrix.elements.environment = {0, 0.1, 0.2, 0.3, 1};
+  matrix.elements.environment_error = {0, 1e-3, 1e-3, 1e-3, 0};
+  { FactorStoreWriter begun(scratch / "F.h5", matrix.elements, key, 4); }
+  Matrix other = matrix;
+  other.elements.environment[1] = 0.11;
+  for (const Matrix& wrong : {Matrix(5), other})
+    EXPECT_NE(message_of([&] { FactorStoreWriter(scratch / "F.h5", wrong.elements, key, 4); }), "");
+  write_store(scratch / "F.h5", matrix, 4);
+  const FactorStore store(scratch / "F.h5");
+  EXPECT_EQ(store.elements().environment, matrix.elements.environment);
+  EXPECT_EQ(store.elements().environment_error, matrix.elements.environment_error);
+}
+
 TEST(FactorStore, rows_are_read_from_anywhere) {
   const test::TemporaryFolder scratch;
   const Matrix matrix(23);
@@ -190,7 +206,9 @@ TEST(FactorStore, of_another_geometry_or_other_settings_is_refused_in_one_line) 
             }),
             partial + ": it was begun with other settings (remove it to begin anew, or repeat them to go on)");
   EXPECT_EQ(message_of([&] { FactorStoreWriter(scratch / "F.h5", other.elements, key); }),
-            partial + ": its elements are others than those of this run");
+            partial +
+                ": it was begun with 5 elements, and this run has 6 (remove it to begin anew, or repeat the "
+                "options to go on)");
   EXPECT_EQ(message_of([&] { FactorStore{scratch / "F.h5.partial"}; }),
             partial + ": it is not finished: the run that computes it can be repeated to go on");
   write_store(scratch / "G.h5", matrix, 512);
@@ -254,6 +272,22 @@ TEST(FactorStore, every_truncation_and_every_flipped_byte_is_read_or_refused_in_
   int status = -1;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
+}
+
+TEST(FactorStore, what_a_stopped_run_left_is_called_damaged_where_it_is_cut) {
+  const test::TemporaryFolder scratch;
+  const Matrix matrix(5);
+  { FactorStoreWriter store(scratch / "F.h5", matrix.elements, key, 2); }
+  const std::string partial = (scratch / "F.h5.partial").string(), bytes = test::read_file(partial);
+  for (const std::size_t size : {std::size_t{0}, std::size_t{100}, bytes.size() / 2, bytes.size() - 1}) {
+    scratch.write("F.h5.partial", bytes.substr(0, size));
+    EXPECT_EQ(message_of([&] { FactorStoreWriter(scratch / "F.h5", matrix.elements, key, 2); }),
+              partial + ": it is damaged or cut short: remove it to begin anew")
+        << size;
+  }
+  scratch.write("cut.h5", bytes.substr(0, bytes.size() / 2));
+  EXPECT_EQ(message_of([&] { FactorStore{scratch / "cut.h5"}; }),
+            (scratch / "cut.h5").string() + ": cannot be opened: the file is damaged or cut short");
 }
 
 TEST(FactorStore, a_full_disk_leaves_no_half_file) {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+
 #include "texts.h"
 
 namespace interflect::scene {
@@ -31,6 +34,8 @@ TEST(BadMesh, obj_faults_name_their_line) {
   EXPECT_EQ(said_of("m.obj", corners + "f 1 2 x\n"),
             "m.obj:4: a face has an index that is 0 or no number: they start at 1");
   EXPECT_EQ(said_of("m.obj", corners + "f 1 2 4294967297\n"), "m.obj:4: a face has an index beyond a thousand million");
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\nf 1 2"), "m.obj:5: a face has three corners or more, not 2");
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\nf"), "m.obj:5: a face has three corners or more, not 0");
   EXPECT_EQ(said_of("m.obj", "v 0 0 0\nv 1 nan 0\n"), "m.obj:2: the coordinate 'nan' is not finite");
   EXPECT_EQ(said_of("m.obj", "v 0 0 0\n\nv 1 0 -inf\n"), "m.obj:3: the coordinate '-inf' is not finite");
   EXPECT_EQ(said_of("m.obj", "v 0 0 0\nv 1 0 1e999\n"), "m.obj:2: '1e999' is not a coordinate");
@@ -41,7 +46,7 @@ TEST(BadMesh, obj_faults_name_their_line) {
 TEST(BadMesh, files_without_faces_are_refused) {
   EXPECT_EQ(said_of("m.obj", ""), "m.obj: the file has no faces");
   EXPECT_EQ(said_of("m.obj", corners), "m.obj: the file has points or lines, and no faces");
-  EXPECT_EQ(said_of("m.obj", corners + "f 1 2\nl 1 2\n"), "m.obj: the file has points or lines, and no faces");
+  EXPECT_EQ(said_of("m.obj", corners + "p 1\nl 1 2\n"), "m.obj: the file has points or lines, and no faces");
   EXPECT_EQ(said_of("m.obj", corners + "f 1 1 2\n"), "m.obj: no face with an area is left");
   EXPECT_EQ(said_of("m.ply", ""), "m.ply: the file is empty");
   EXPECT_EQ(said_of("m.stl", "solid a\nendsolid a\n"), "m.stl: the file has no faces");
@@ -50,7 +55,28 @@ TEST(BadMesh, files_without_faces_are_refused) {
 TEST(BadMesh, degenerate_faces_are_an_error_where_they_may_not_be_dropped) {
   EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\nf 1 1 2\n",
                     R"(, "unmapped": "white", "repair": {"drop_degenerate": false})"),
-            "m.obj: face 2 has no area (\"drop_degenerate\" would drop it)");
+            "m.obj: the face m/2 has no area (\"drop_degenerate\" would drop it)");
+}
+
+// With loops of two sizes, of one size, whose areas cancel, and out of plane.
+TEST(BadMesh, faces_that_cross_themselves_are_refused_by_name) {
+  const std::string said = " crosses itself: what it encloses is not defined; are its corners in order?";
+  for (const char* face : {"v 0 0 8\nv 4 0 8\nv 4 3 8\nv 1 -1 8\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n",
+                           "v 0 0 0\nv 0 1 0.3\nv 1 0 0\nv 2 2 0\nv 1 0.9 0\n"}) {
+    const std::string corner_list = std::count(face, face + std::strlen(face), 'v') == 4 ? "4 5 6 7" : "4 5 6 7 8";
+    EXPECT_EQ(said_of("m.obj", corners + face + "g box\nf 1 2 3\nf " + corner_list + "\n"),
+              "m.obj: the face box/2" + said)
+        << face;
+  }
+}
+
+// Its cubes and squares would overflow; of a kilometre in millimetres none does.
+TEST(BadMesh, coordinates_out_of_reach_name_their_vertex) {
+  EXPECT_EQ(said_of("m.obj", corners + "v 1 2 -1e100\nf 1 2 3\n"),
+            "m.obj: vertex 4 lies at (1, 2, -1e+100) m: at most 1e+15 m from 0 along each axis expected");
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\n", R"(, "unmapped": "white", "transform": {"scale": 1e100})"),
+            "m.obj: vertex 2 lies at (1e+100, 0, 0) m: at most 1e+15 m from 0 along each axis expected");
+  EXPECT_EQ(said_of("m.obj", "v 1e15 0 0\nv 0 1e15 0\nv 0 0 1e15\nf 1 2 3\n"), "read");
 }
 
 TEST(BadMesh, unmapped_materials_are_listed) {
@@ -160,6 +186,28 @@ TEST(BadMesh, ply_texts_that_are_cut_are_refused) {
         << said << "\n"
         << whole.substr(data, length - data);
   }
+}
+
+TEST(BadMesh, stl_texts_that_are_cut_are_refused) {
+  const std::string facet =
+                        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n",
+                    whole = "solid two words\n" + facet + facet + "endsolid two words\n";
+  const std::size_t name = whole.find("\n"), end = whole.rfind("endsolid") + 8;
+  for (std::size_t length = name; length < end; ++length) {
+    const std::string said = said_of("m.stl", whole.substr(0, length));
+    EXPECT_TRUE(said.starts_with("m.stl:")) << length << ": " << said;
+  }
+  for (std::size_t length = end; length <= whole.size(); ++length)
+    EXPECT_EQ(said_of("m.stl", whole.substr(0, length)), "read") << length;
+  EXPECT_EQ(said_of("m.stl", "solid two words\n" + facet),
+            "m.stl:9: the file ends within the solid 'two words': 'endsolid' is expected");
+  EXPECT_EQ(said_of("m.stl", "solid a\n" + facet + facet.substr(0, 60)), "m.stl:13: the file ends within a facet");
+  EXPECT_EQ(said_of("m.stl", "solid a\n" + facet + facet.substr(0, 60) + "\nendsolid a\n"),
+            "m.stl:14: the solid ends within a facet");
+  EXPECT_EQ(said_of("m.stl", "solid a\n" + facet.substr(0, 56) + "endloop\nendfacet\nendsolid a\n"),
+            "m.stl:6: a facet has three corners, not 2");
+  EXPECT_EQ(said_of("m.stl", "solid a\n" + facet.substr(0, 53) + "\nendloop\nendfacet\nendsolid a\n"),
+            "m.stl:5: a vertex has three coordinates");
 }
 
 TEST(BadMesh, ply_lists_stay_within_their_file) {

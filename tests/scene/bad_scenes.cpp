@@ -148,6 +148,13 @@ TEST(BadScene, inline_geometry_is_checked_where_it_stands) {
         "s.json:5: /geometry/0/box: 'min' must be below 'max' in all three coordinates"},
        {with_geometry(R"({"polygon": [[0,0,0],[1,0,0],[1,1,0]], "material": "white", "transform": {"scale": -1}})"),
         "s.json:5: /geometry/0/transform/scale: -1 is not positive"},
+       {with_geometry(R"({"polygon": [[0,0,0],[1,1,0],[1,0,0],[0,2,0]], "material": "white"})"),
+        "s.json:5: /geometry/0/polygon: the outline crosses or touches itself: the edges after corners 0 and 2 meet"},
+       {with_geometry(R"({"polygon": [[0,0,0],[1e100,0,0],[1e100,1e100,0]], "material": "white"})"),
+        "s.json:5: /geometry/0/polygon/1: it lies at (1e+100, 0, 0) m: at most 1e+15 m from 0 along each axis "
+        "expected"},
+       {with_geometry(R"({"box": {"min": [0,0,0], "max": [1,1,1e100]}, "material": "white"})"),
+        "s.json:5: /geometry/0/box/max: it lies at (1, 1, 1e+100) m: at most 1e+15 m from 0 along each axis expected"},
        {with_geometry(R"({"file": "nowhere.obj"})"), "s.json:5: /geometry/0/file: there is no file 'nowhere.obj'"}});
 }
 
@@ -156,6 +163,8 @@ TEST(BadScene, cameras_see_something) {
   expect_all(
       {{camera(R"("eye": [1,1,1], "target": [1,1,1])"),
         "s.json:4: /cameras/0: the camera looks at itself: eye and target are the same point"},
+       {camera(R"("eye": [1,1,1e100], "target": [1,1,1])"),
+        "s.json:4: /cameras/0/eye: it lies at (1, 1, 1e+100) m: at most 1e+15 m from 0 along each axis expected"},
        {camera(R"("eye": [0,0,3], "target": [0,0,0])"),
         "s.json:4: /cameras/0: the camera looks along its 'up': give it another"},
        {camera(R"("eye": [0,3,0], "target": [0,0,0], "up": [0,2,0])"),

@@ -72,6 +72,16 @@ TEST(GeometryFile, surfaces_may_only_occlude_or_not_be_there) {
   ASSERT_EQ(read.scene.facets.size(), 3u);
   EXPECT_EQ(read.scene.facets[2].surface, SurfaceId{1});
   EXPECT_EQ(read.scene.surfaces[1].first_facet, 2u);
+  // Of a group that occludes a part may be left out, but not all.
+  options.only_occlude = {"wall/brick"};
+  EXPECT_EQ(names_of(geometry_of("m.obj", box, options)), (Names{"wall/brick/2", "lid/brick"}));
+  options.left_out.emplace_back("wall/brick/2");
+  EXPECT_EQ(said_of_geometry("m.obj", box, options),
+            "m.obj: 'wall/brick' is to occlude only, and to be left out: one of the two expected");
+  options.only_occlude = options.left_out = {"lid/brick"};
+  EXPECT_EQ(said_of_geometry("m.obj", box, options),
+            "m.obj: 'lid/brick' is to occlude only, and to be left out: one of the two expected");
+  options.only_occlude.clear();
   options.left_out = {"wall/brick", "lid/brick"};
   EXPECT_EQ(said_of_geometry("m.obj", box, options), "m.obj: every surface is left out");
   options.left_out = {"lid/brik"};
@@ -126,6 +136,14 @@ TEST(GeometryFile, many_faces_of_one_name_are_named_at_once) {
   const ExchangeScene read = geometry_of("floor.obj", text);
   ASSERT_EQ(read.scene.surfaces.size(), 20000u);
   EXPECT_EQ(read.scene.surfaces.back().name, "floor/20000");
+}
+
+TEST(GeometryFile, faces_that_are_dropped_are_named_as_their_surfaces_would_be) {
+  const ExchangeScene read = geometry_of("m.obj", box + "f 1 2 3\nf 1 1 2\n");
+  EXPECT_EQ(names_of(read), (Names{"wall/brick/1", "wall/brick/2", "lid/brick"}));
+  ASSERT_EQ(read.scene.repairs.size(), 2u);
+  EXPECT_EQ(read.scene.repairs[0].message, "1 degenerate face dropped: lid/brick/5");
+  EXPECT_EQ(read.scene.repairs[1].message, "1 duplicate face dropped: lid/brick/4");
 }
 
 TEST(GeometryFile, what_is_none_is_refused_in_one_line) {

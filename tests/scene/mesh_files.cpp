@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstring>
 
 #include "core/random.h"
@@ -8,6 +9,7 @@
 namespace interflect::scene {
 namespace {
 
+using namespace std::string_literals;
 using test::Folder;
 using test::parsed;
 using test::Text;
@@ -93,11 +95,9 @@ TEST(MeshFile, concave_faces_keep_their_shape_and_bent_ones_are_counted) {
   const Folder folder;
   folder.write("m.obj",
                "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n"
-               "v 0 0 5\nv 1 0 5\nv 1 1 5.1\nv 0 1 5\nf 7 8 9 10\n"
-               "v 0 0 8\nv 4 0 8\nv 4 3 8\nv 1 -1 8\nf 11 12 13 14\n");
+               "v 0 0 5\nv 1 0 5\nv 1 1 5.1\nv 0 1 5\nf 7 8 9 10\n");
   const Scene scene = scene_of(folder, "m.obj");
-  EXPECT_EQ(messages(scene.repairs), (std::vector<std::string>{"1 face that is not planar split into triangles",
-                                                               "1 face that crosses itself split as a fan"}));
+  EXPECT_EQ(messages(scene.repairs), (std::vector<std::string>{"1 face that is not planar split into triangles: m/2"}));
   double below = 0;
   for (const Facet& f : scene.facets) below += f.corner[0].z() == 0 ? f.area : 0;
   EXPECT_DOUBLE_EQ(below, 3);
@@ -109,13 +109,29 @@ TEST(MeshFile, repairs_are_counted) {
                "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 0.000001 0 0\n"
                "f 1 2 3\nf 3 1 2\nf 2 1 3\nf 1 2 5\nf 1 1 2\nf 6 3 4\n");
   EXPECT_EQ(messages(scene_of(folder, "m.obj").repairs),
-            (std::vector<std::string>{"2 degenerate faces dropped", "2 duplicate faces dropped"}));
+            (std::vector<std::string>{"2 degenerate faces dropped: m/4, m/5", "2 duplicate faces dropped: m/2, m/3"}));
   EXPECT_EQ(scene_of(folder, "m.obj").facets.size(), 2u);
   const Scene welded = scene_of(folder, "m.obj", R"(, "repair": {"weld": 1e-5})");
   EXPECT_EQ(welded.repairs[0].message, "1 vertices welded to others");
   EXPECT_EQ(welded.facets[1].corner[0], Vec3(0, 0, 0));
   const Scene kept = scene_of(folder, "m.obj", R"(, "repair": {"drop_duplicate": false})");
   EXPECT_EQ(kept.facets.size(), 4u);
+}
+
+TEST(MeshFile, of_many_repaired_faces_the_first_few_are_named) {
+  const Folder folder;
+  std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\ng plate\nusemtl tin\nf 1 2 3\n";
+  for (int k = 0; k < 4; ++k) text += "f 1 2 2\n";
+  folder.write("m.obj", text);
+  EXPECT_EQ(messages(scene_of(folder, "m.obj").repairs),
+            (std::vector<std::string>{"4 degenerate faces dropped: plate/tin/2, plate/tin/3, plate/tin/4, .."}));
+}
+
+// Out and back along the same edges: it has no area, but crosses nothing.
+TEST(MeshFile, a_face_that_runs_back_on_itself_is_degenerate) {
+  const Folder folder;
+  folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 1 2 3 2\n");
+  EXPECT_EQ(messages(scene_of(folder, "m.obj").repairs), (std::vector<std::string>{"1 degenerate face dropped: m/2"}));
 }
 
 // A needle of 1e-9 m where coordinates are rounded to 1e-10 m: cut into quarters it would lie on a line.  At the origin
@@ -140,7 +156,7 @@ TEST(MeshFile, reversed_twins_of_one_sided_sheets_are_no_duplicates) {
   EXPECT_EQ(scene.facets.size(), 2u);
   EXPECT_TRUE(scene.repairs.empty());
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0].message, "1 faces lie on others that face the other way");
+  EXPECT_EQ(scene.warnings[0].message, "1 face lies on another that faces the other way: m/2");
 }
 
 TEST(MeshFile, materials_are_mapped_by_name) {
@@ -165,6 +181,33 @@ TEST(MeshFile, transforms_and_units_apply_to_files) {
   const Scene scene = parsed(text, folder.path());
   EXPECT_EQ(scene.facets[0].corner[2], Vec3(1, 0, 2));
   EXPECT_EQ(scene.facets[0].normal, Vec3(0, -1, 0));
+}
+
+// Names may be keywords; keywords may be capitals; between solids and facets may be anything.
+TEST(MeshFile, stl_texts_are_understood_as_people_write_them) {
+  const Folder folder;
+  const auto facet = [](const std::string& z) {
+    return "facet normal 0 0 1\nouter loop\nvertex 0 0 " + z + "\nvertex +1 0 " + z + "\nvertex 1 1.e0 " + z +
+           "\nendloop\nendfacet\n";
+  };
+  std::string capitals = "SOLID S\n" + facet("0") + "ENDSOLID\n";
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (const std::string& text :
+       {"solid\n" + facet("0") + "endsolid", "solid a\r\n\r\n" + facet("0") + "end solid a\r\n",
+        "solid my endsolid name\n" + facet("0") + "endsolid my facet name\n\n", capitals,
+        "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0 endloop endfacet endsolid a"s}) {
+    folder.write("m.stl", text);
+    const Scene scene = scene_of(folder, "m.stl");
+    ASSERT_EQ(scene.facets.size(), 1u) << text;
+    EXPECT_EQ(scene.facets[0].corner[2], Vec3(1, 1, 0)) << text;
+  }
+  folder.write("m.stl", "solid a\n" + facet("0") + "endsolid a\nsolid b\n" + facet("1") + facet("2") +
+                            "endsolid b\nsolid empty\nendsolid empty\n");
+  const Scene scene = scene_of(folder, "m.stl");
+  ASSERT_EQ(scene.surfaces.size(), 2u);
+  EXPECT_EQ(scene.surfaces[1].name, "b");
+  EXPECT_EQ(scene.facets.size(), 3u);
+  EXPECT_TRUE(scene.repairs.empty());
 }
 
 TEST(MeshFile, ply_and_stl_are_read_in_single_precision_and_say_so) {

@@ -150,7 +150,11 @@ TEST(SceneFile, oddities_are_warned_of) {
   };
   Text lit{"", R"("white": {"reflectance": 0.5, "exitance": 1})"};
   EXPECT_EQ(warnings(lit), "");
-  EXPECT_EQ(warnings({}), "s.json: nothing emits: everything will be dark\n");
+  EXPECT_EQ(warnings({}), "") << "it may be read for its view factors";
+  Scene dark = parsed({});
+  warn_of_darkness(dark);
+  ASSERT_EQ(dark.warnings.size(), 1u);
+  EXPECT_EQ(dark.warnings[0].message, "nothing emits: everything will be dark");
   Text unused{"", R"("white": {"reflectance": 0.5, "exitance": 1}, "red": {"reflectance": 0.5})"};
   EXPECT_EQ(warnings(unused), "s.json: the material 'red' is not used\n");
   lit.units = "mm";

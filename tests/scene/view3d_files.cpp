@@ -147,6 +147,13 @@ TEST(View3dFile, faults_name_their_line) {
             "r.vs3:14: surface 2 ('x') does not lie within its base, surface 1, or overlaps another one there");
   EXPECT_EQ(said("", "M 2 4 3 2 1 1 0 1 x\n"),
             "r.vs3:10: surface 2 ('x') covers all that is left of its base, surface 1");
+  EXPECT_EQ(said("V 5 0 0 1e100\n", "S 2 1 2 5 0 0 0 1 x\n"),
+            "r.vs3:11: surface 2 ('x') cannot be used: a corner lies at (0, 0, 1e+100) m: at most 1e+15 m from 0 along "
+            "each axis expected");
+  EXPECT_EQ(
+      said("V 5 0 9 0\n", "S 2 1 3 2 5 0 0 1 x\n"),
+      "r.vs3:11: surface 2 ('x') cannot be used: the outline crosses or touches itself: the edges after corners 0 "
+      "and 2 meet");
   EXPECT_EQ(said_of_geometry("r.vs3", ""), "r.vs3: the file has no surfaces");
   EXPECT_EQ(said_of_geometry("r.vs3", "V 1 0 0 0\n"),
             "r.vs3:1: a line 'F 3' or 'F 3a' is expected before vertices and surfaces");
@@ -160,10 +167,16 @@ TEST(View3dFile, faults_name_their_line) {
   EXPECT_EQ(said_of_geometry("r.vs3", std::string("F 3\n\0", 5)), "r.vs3:2: a NUL byte: text in UTF-8 is expected");
 }
 
-TEST(View3dFile, every_truncation_is_read_or_refused_in_one_line) {
+TEST(View3dFile, texts_that_are_cut_before_their_end_are_refused_in_one_line) {
   const std::string text = floor_and(square(5, "1", "1"), "S 2 5 6 7 8 1 0 0.5 hatch\nO 3 5 6 7 0\n");
-  for (std::size_t length = 0; length <= text.size(); ++length)
-    EXPECT_EQ(said_of_geometry("r.vs3", text.substr(0, length)).find("MORE"), std::string::npos);
+  const std::size_t end = text.find("End of data");
+  for (std::size_t length = 0; length <= end; ++length)
+    EXPECT_TRUE(said_of_geometry("r.vs3", text.substr(0, length)).starts_with("r.vs3:")) << length;
+  for (std::size_t length = end + 1; length <= text.size(); ++length)
+    EXPECT_EQ(said_of_geometry("r.vs3", text.substr(0, length)), "read") << length;
+  EXPECT_EQ(said_of_geometry("r.vs3", text.substr(0, end)),
+            "r.vs3:15: the file ends without a line 'End of data': it may have been cut short");
+  EXPECT_EQ(said_of_geometry("r.vs3", text.substr(0, end) + "*"), "read");
 }
 
 }  // namespace

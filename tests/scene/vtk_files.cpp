@@ -180,7 +180,7 @@ TEST(VtkFile, pieces_come_one_after_the_other) {
   const std::size_t start = text.find("<Piece"), end = text.find("</UnstructuredGrid>");
   text.insert(end, text.substr(start, end - start));
   const ExchangeScene read = geometry_of("m.vtu", text);
-  EXPECT_EQ(read.scene.repairs[0].message, "1 duplicate face dropped") << "it is the same triangle again";
+  EXPECT_EQ(read.scene.repairs[0].message, "1 duplicate face dropped: m/2") << "it is the same triangle again";
 }
 
 TEST(VtkFile, faults_name_their_line) {
