@@ -8,6 +8,7 @@
 #include "core/format.h"
 #include "scene/builder.h"
 #include "scene/io/mesh_import.h"
+#include "scene/io/placement.h"
 #include "scene/io/text_file.h"
 #include "scene/io/view3d_scene.h"
 #include "scene/reader.h"
@@ -59,6 +60,7 @@ ExchangeScene read_mesh_scene(const std::filesystem::path& file, const GeometryO
                        options.whole_groups ? io::MeshSurfaces::of_groups : io::MeshSurfaces::of_faces, shown,
                        out.surfaces);
   out.scene = builder.finish(shown);
+  io::require_extent(out.scene, shown);
   return out;
 }
 
@@ -74,6 +76,7 @@ ExchangeScene read_view3d_scene(const std::filesystem::path& file, const Geometr
   ExchangeScene out;
   io::import_view3d(builder, out, surfaces, sides, shown);
   out.scene = builder.finish(shown);
+  io::require_extent(out.scene, shown);
   return out;
 }
 

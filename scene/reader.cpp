@@ -81,6 +81,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   if (root.has("cameras")) io::read_cameras(root.at("cameras"), unit, builder.scene());
   if (root.has("expected")) io::read_expected(root.at("expected"), builder.scene());
   Scene scene = builder.finish(name);
+  io::require_extent(scene, name);
   warn_of_oddities(scene, name);
   return scene;
 }

@@ -54,6 +54,13 @@ std::string out_of_reach(const Vec3& x) {
                       x.z(), furthest);
 }
 
+void require_extent(const Scene& scene, const std::string& shown) {
+  if (const double across = scene.box().diagonal().norm(); !(across >= smallest))
+    throw core::InputError(shown, core::format("its surfaces are %.2g m across, all together: %.0e m or more expected; "
+                                               "in which unit are its coordinates?",
+                                               across, smallest));
+}
+
 Vec3 read_place(const JsonNode& node, const Placement& placement) {
   const Vec3 x = placement(node.vec3());
   if (!is_within_reach(x)) node.fail("it " + out_of_reach(x));

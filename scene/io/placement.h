@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/io/json_document.h"
+#include "scene/scene.h"
 
 namespace interflect::scene::io {
 
@@ -36,6 +37,12 @@ struct Placement {
 inline constexpr double furthest = 1e15;
 /// Infinite and undefined ones are not.
 inline bool is_within_reach(const Vec3& x) { return (x.cwiseAbs().array() <= furthest).all(); }
+/// Scenes whose diagonal is shorter are refused [m]: rays are cast in single precision, where squares of areas soon
+/// underflow.
+inline constexpr double smallest = 1e-15;
+/// @throws core::InputError  in one line
+void require_extent(const Scene& scene, const std::string& shown);
+
 /// "lies at (1e+100, 0, 0) m: ..".
 std::string out_of_reach(const Vec3& x);
 

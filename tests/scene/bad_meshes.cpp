@@ -74,6 +74,9 @@ TEST(BadMesh, faces_that_cross_themselves_are_refused_by_name) {
 TEST(BadMesh, coordinates_out_of_reach_name_their_vertex) {
   EXPECT_EQ(said_of("m.obj", corners + "v 1 2 -1e100\nf 1 2 3\n"),
             "m.obj: vertex 4 lies at (1, 2, -1e+100) m: at most 1e+15 m from 0 along each axis expected");
+  EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\n", R"(, "unmapped": "white", "transform": {"scale": 1e-30})"),
+            "s.json: its surfaces are 1.4e-30 m across, all together: 1e-15 m or more expected; in which unit are its "
+            "coordinates?");
   EXPECT_EQ(said_of("m.obj", corners + "f 1 2 3\n", R"(, "unmapped": "white", "transform": {"scale": 1e100})"),
             "m.obj: vertex 2 lies at (1e+100, 0, 0) m: at most 1e+15 m from 0 along each axis expected");
   EXPECT_EQ(said_of("m.obj", "v 1e15 0 0\nv 0 1e15 0\nv 0 0 1e15\nf 1 2 3\n"), "read");
