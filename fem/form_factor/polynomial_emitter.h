@@ -3,14 +3,10 @@
 #include <span>
 
 #include "core/vec.h"
+#include "fem/space/plane_basis.h"
 #include "fem/space/polynomials.h"
 
 namespace interflect::fem {
-
-/// Coordinates of a plane: y = origin + xi e_1 + eta e_2, unit and orthogonal.
-struct PlaneFrame {
-  Vec3 origin, e_1, e_2;
-};
 
 /// Irradiance at a point from a polygon whose radiosity is a monomial of its plane, in closed form:
 ///
