@@ -4,7 +4,7 @@
 
 namespace interflect::fem {
 
-std::unique_ptr<PairOcclusion> Analytic::occlusion() const {
+std::unique_ptr<PairWork> Analytic::work() const {
   return std::make_unique<ExactOcclusion>(shapes(), blockers(), context().tolerance);
 }
 

@@ -13,7 +13,7 @@ class Analytic final : public PairMethod {
   std::string name() const override { return "analytic"; }
 
  private:
-  std::unique_ptr<PairOcclusion> occlusion() const override;
+  std::unique_ptr<PairWork> work() const override;
 };
 
 }  // namespace interflect::fem

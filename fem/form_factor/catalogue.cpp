@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "fem/form_factor/analytic.h"
+#include "fem/form_factor/analytic_moments.h"
 #include "fem/form_factor/area_to_area.h"
 #include "fem/form_factor/gauss_lambert.h"
 #include "fem/form_factor/global_lines.h"
@@ -24,7 +25,11 @@ std::unique_ptr<FormFactorMethod> make(const FormFactorContext& context) {
   return std::make_unique<Method>(context);
 }
 
-constexpr Entry catalogue[] = {{"analytic", make<Analytic>},
+std::unique_ptr<FormFactorMethod> make_analytic(const FormFactorContext& context) {
+  return context.order == 0 ? make<Analytic>(context) : make<AnalyticMoments>(context);
+}
+
+constexpr Entry catalogue[] = {{"analytic", make_analytic},
                                {"hybrid", make<Hybrid>},
                                {"gauss-lambert", make<GaussLambert>},
                                {"area-to-area", make<AreaToArea>},
@@ -52,7 +57,13 @@ PairCounts& PairCounts::operator+=(const PairCounts& o) {
 std::unique_ptr<FormFactorMethod> make_form_factor_method(const std::string& name, const FormFactorContext& context) {
   std::string known;
   for (const Entry& entry : catalogue) {
-    if (name == entry.name) return entry.make(context);
+    if (name == entry.name) {
+      auto method = entry.make(context);
+      if (method->highest_order() < context.order)
+        throw core::InputError("form factors by '" + name + "'",
+                               "they are of constants: --order 0, or analytic, expected");
+      return method;
+    }
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
   throw core::InputError("form factors by '" + name + "'", "one of " + known + " expected");

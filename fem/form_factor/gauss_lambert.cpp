@@ -26,6 +26,6 @@ class GaussLambert::Rays final : public PairOcclusion {
 GaussLambert::GaussLambert(const FormFactorContext& context)
     : PairMethod(context), visibility_(context.patches, context.rays, context.visibility_rays, context.seed) {}
 
-std::unique_ptr<PairOcclusion> GaussLambert::occlusion() const { return std::make_unique<Rays>(*this); }
+std::unique_ptr<PairWork> GaussLambert::work() const { return std::make_unique<Rays>(*this); }
 
 }  // namespace interflect::fem

@@ -14,7 +14,7 @@ class GaussLambert final : public PairMethod {
 
  private:
   class Rays;
-  std::unique_ptr<PairOcclusion> occlusion() const override;
+  std::unique_ptr<PairWork> work() const override;
 
   VisibilitySampler visibility_;
 };

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fem/form_factor/four_parts.h"
+#include "fem/form_factor/moment_integrand.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/quadrature.h"
 #include "geometry/segment.h"
@@ -81,10 +82,11 @@ double radius_of(std::span<const Vec3> ring) {
 }  // namespace
 
 /// One pair's integration over cells.
-class HiddenExchange::Pair {
+template <class Integrand>
+class HiddenExchangeOf<Integrand>::Pair {
  public:
-  Pair(HiddenExchange& work, const ElementShape& outer, const ElementShape& inner)
-      : work_(work), outer_(outer), inner_(inner) {
+  Pair(HiddenExchangeOf& work, const ElementShape& inner, const Integrand& integrand)
+      : work_(work), inner_(inner), integrand_(integrand) {
     work_.cells_.clear();
   }
 
@@ -119,8 +121,8 @@ class HiddenExchange::Pair {
       }
     }
   }
-  HiddenIntegral result() const {
-    HiddenIntegral sum{0, summed_errors(), all_};
+  HiddenIntegralOf<Value> result() const {
+    HiddenIntegralOf<Value> sum{integrand_.zero(), summed_errors(), all_};
     for (const Cell& cell : work_.cells_) sum.value += cell.value;
     return sum;
   }
@@ -220,33 +222,35 @@ class HiddenExchange::Pair {
   }
   void climb(Cell& cell) const {
     ++cell.rung;
-    const double before = cell.value;
+    const Value before = cell.value;
     cell.value = integral(cell);
-    cell.error = error_of(cell, std::abs(cell.value - before));
+    cell.error = error_of(cell, Integrand::size(cell.value - before));
   }
-  static double error_of(const Cell& cell, double difference) {
+  double error_of(const Cell& cell, double difference) const {
     const bool quad = cell.corners == 4;
     const double c = quad && !cell.parts.several() ? 0.5 : 2, q = ratio(cell);
     if (q > smooth)
-      return (cell.kinked ? 2 : 1) * std::max(std::min(1.0, c * q) * difference, std::abs(cell.by_border - cell.value));
-    return c * q * difference + 0.2 * std::pow(q, degree_of(cell.rung, cell.corners) + 1) * cell.value;
+      return (cell.kinked ? 2 : 1) *
+             std::max(std::min(1.0, c * q) * difference, Integrand::size(cell.by_border - cell.value));
+    const int degree = std::max(0, degree_of(cell.rung, cell.corners) - integrand_.degrees);
+    return c * q * difference + 0.2 * std::pow(q, degree + 1) * Integrand::size(cell.value);
   }
   /// Of the cell to the distance over which its integrand varies; 1 where that has kinks.
   static double ratio(const Cell& cell) { return cell.kinked ? 1 : std::min(1.0, cell.ratio); }
-  double integral(Cell& cell) const { return integral(cell, rule_of(cell.rung, cell.corners)); }
+  Value integral(Cell& cell) const { return integral(cell, rule_of(cell.rung, cell.corners)); }
   /// Its nodes may find a kink.
-  double integral(Cell& cell, const Rule& rule) const {
-    double sum = 0;
+  Value integral(Cell& cell, const Rule& rule) const {
+    Value sum = integrand_.zero();
     for (const RuleNode& node : rule)
-      sum += node.weight * jacobian(cell.ring(), node.u, node.v) * factor(cell, point_on(cell.ring(), node.u, node.v));
+      sum +=
+          node.weight * jacobian(cell.ring(), node.u, node.v) * value_at(cell, point_on(cell.ring(), node.u, node.v));
     return (cell.corners == 3 ? 0.5 : 1.0) * sum;
   }
-  double factor(Cell& cell, const Vec3& eye) const {
-    const Vec3& normal = outer_.plane.normal;
-    if (cell.hides == Hides::all) return point_to_polygon_above_horizon(eye, normal, inner_.ring());
+  Value value_at(Cell& cell, const Vec3& eye) const {
+    if (cell.hides == Hides::all) return integrand_.at_whole(eye, inner_.ring());
     look_past(cell, eye);
     if (several_hide(cell) && !cell.kinked) cell.kinked = work_.form_seen(eye, inner_, cell.parts) != cell.form;
-    return work_.factor_of_hidden(normal);
+    return integrand_.at(eye, work_.part_.hidden());
   }
   void look_past(const Cell& cell, const Vec3& eye) const {
     work_.look(eye, inner_);
@@ -254,44 +258,54 @@ class HiddenExchange::Pair {
       if (cell.parts.has(k)) work_.hide(eye, shadows()[k], work_.part_);
   }
 
-  HiddenExchange& work_;
-  const ElementShape &outer_, &inner_;
+  HiddenExchangeOf& work_;
+  const ElementShape& inner_;
+  const Integrand& integrand_;
   double error_ = 0;
   bool all_ = true;  ///< is hidden from all cells
 };
 
-HiddenIntegral HiddenExchange::operator()(const ElementShape& outer, const ElementShape& inner, Blockers blockers,
-                                          double tolerance) {
+template <class Integrand>
+HiddenIntegralOf<typename Integrand::Value> HiddenExchangeOf<Integrand>::operator()(const ElementShape& outer,
+                                                                                    const ElementShape& inner,
+                                                                                    const Integrand& integrand,
+                                                                                    Blockers blockers,
+                                                                                    double tolerance) {
   prepare(outer.ring(), inner.ring(), blockers);
-  if (shadow_count_ == 0) return {};
-  Pair pair(*this, outer, inner);
+  if (shadow_count_ == 0) return {integrand.zero(), 0, false};
+  Pair pair(*this, inner, integrand);
   pair.cover(outer.ring(), 0);
   pair.refine(tolerance);
   return pair.result();
 }
 
-double HiddenExchange::hidden_factor(const Vec3& x, const Vec3& normal, const ElementShape& inner, Blockers blockers) {
+template <class Integrand>
+typename Integrand::Value HiddenExchangeOf<Integrand>::hidden_at(const Vec3& x, const ElementShape& inner,
+                                                                 const Integrand& integrand, Blockers blockers) {
   look(x, inner);
   for (const ConvexBlocker* blocker : blockers) hide(x, *blocker, part_);
-  return factor_of_hidden(normal);
+  return integrand.at(x, part_.hidden());
 }
 
 /// What each blocker is to the pair; those that hide nothing drop out.
-void HiddenExchange::prepare(std::span<const Vec3> outer, std::span<const Vec3> inner, Blockers blockers) {
+template <class Integrand>
+void HiddenExchangeOf<Integrand>::prepare(std::span<const Vec3> outer, std::span<const Vec3> inner, Blockers blockers) {
   shadow_count_ = 0;
   if (shadows_.size() < blockers.size()) shadows_.resize(blockers.size());
   for (const ConvexBlocker* blocker : blockers)
     shadow_count_ += shadows_[shadow_count_].prepare(*blocker, outer, inner, rounding_);
 }
 
-void HiddenExchange::look(const Vec3& eye, const ElementShape& inner) {
+template <class Integrand>
+void HiddenExchangeOf<Integrand>::look(const Vec3& eye, const ElementShape& inner) {
   ++points_;
   relative_.clear();
   for (const Vec3& corner : inner.ring()) relative_.push_back(corner - eye);
   part_.start(relative_);
 }
 
-void HiddenExchange::hide(const Vec3& eye, const PairShadow& shadow, HiddenPart& part) {
+template <class Integrand>
+void HiddenExchangeOf<Integrand>::hide(const Vec3& eye, const PairShadow& shadow, HiddenPart& part) {
   if (shadow.touches_eyes()) return hide(eye, shadow.blocker(), part);
   if (part.seen().size() == 0) return;
   shadow_.clear();
@@ -299,7 +313,8 @@ void HiddenExchange::hide(const Vec3& eye, const PairShadow& shadow, HiddenPart&
   part.hide(shadow_);
 }
 
-void HiddenExchange::hide(const Vec3& eye, const ConvexBlocker& blocker, HiddenPart& part) {
+template <class Integrand>
+void HiddenExchangeOf<Integrand>::hide(const Vec3& eye, const ConvexBlocker& blocker, HiddenPart& part) {
   if (part.seen().size() == 0) return;
   shadow_.clear();
   if (blocker.append_shadow(eye, rounding_, shadow_)) {
@@ -309,16 +324,11 @@ void HiddenExchange::hide(const Vec3& eye, const ConvexBlocker& blocker, HiddenP
   }
 }
 
-double HiddenExchange::factor_of_hidden(const Vec3& normal) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < part_.hidden().size(); ++k)
-    sum += point_to_polygon_above_horizon(Vec3::Zero(), normal, part_.hidden()[k]);
-  return sum;
-}
-
 /// The form of what is seen of the inner element past some, as one number: how many corners it has on each line of each
 /// shadow.
-std::uint64_t HiddenExchange::form_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past) {
+template <class Integrand>
+std::uint64_t HiddenExchangeOf<Integrand>::form_seen(const Vec3& eye, const ElementShape& inner,
+                                                     const ShadowSet& past) {
   const double near = same_place * inner.radius;
   const std::span<const Vec3> corners = union_corners_(part_.seen(), inner.plane.normal, near);
   std::uint64_t form = corners.size();
@@ -331,5 +341,18 @@ std::uint64_t HiddenExchange::form_seen(const Vec3& eye, const ElementShape& inn
   }
   return form;
 }
+
+double LambertOfParts::at(const Vec3&, const geometry::RingList& parts) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) sum += point_to_polygon_above_horizon(Vec3::Zero(), normal, parts[k]);
+  return sum;
+}
+
+double LambertOfParts::at_whole(const Vec3& x, std::span<const Vec3> ring) const {
+  return point_to_polygon_above_horizon(x, normal, ring);
+}
+
+template class HiddenExchangeOf<LambertOfParts>;
+template class HiddenExchangeOf<MomentIntegrand>;
 
 }  // namespace interflect::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,10 +16,13 @@
 namespace interflect::fem {
 
 /// What blockers take from an exchange, and what its error is estimated to be at most [m²].
-struct HiddenIntegral {
-  double value = 0, error = 0;
+template <class Value>
+struct HiddenIntegralOf {
+  Value value{};
+  double error = 0;
   bool all = false;  ///< one blocker hides all of the other element from wherever one is
 };
+using HiddenIntegral = HiddenIntegralOf<double>;
 
 /// What blockers take from the exchange of two elements, after [Nishita, Nakamae 1985]: from a point of one the hidden
 /// part of the other is known exactly, as polygons, and Lambert's formula gives their form factor; that is integrated
@@ -45,23 +49,33 @@ struct HiddenIntegral {
 /// four (what is left are surfaces of second degree, through three edges).  The cell with the largest error goes first,
 /// until the errors sum to the tolerance.
 ///
+/// What is integrated is a number or a small matrix, whose error is that of its worst entry:
+///
+///   Value, zero(), size(v)    as in adaptive_cells.h
+///   at(x, parts)              the integrand at x, of parts of the inner element, convex and relative to x
+///   at_whole(x, ring)         of all of it
+///   degrees                   that its own polynomials take of a rule's
+///
 /// Not shared between threads: it holds the work's memory.
-class HiddenExchange {
+template <class Integrand>
+class HiddenExchangeOf {
  public:
+  using Value = typename Integrand::Value;
+
   /// @param rounding  of coordinates [m]
-  explicit HiddenExchange(double rounding) : events_(rounding), rounding_(rounding) {}
+  explicit HiddenExchangeOf(double rounding) : events_(rounding), rounding_(rounding) {}
 
   /// @param outer, inner  each in front of the other's plane
   /// @param tolerance     [m²]
   /// @return  value, and an estimated bound on its error; that exceeds the tolerance only if 20 000 cells were not
   /// enough
-  HiddenIntegral operator()(const ElementShape& outer, const ElementShape& inner,
-                            std::span<const geometry::ConvexBlocker* const> blockers, double tolerance);
+  HiddenIntegralOf<Value> operator()(const ElementShape& outer, const ElementShape& inner, const Integrand& integrand,
+                                     std::span<const geometry::ConvexBlocker* const> blockers, double tolerance);
 
-  /// F_{dA -> hidden part of inner} from a point in front of the inner element's plane, for which that is in front of
-  /// the horizon.
-  double hidden_factor(const Vec3& x, const Vec3& normal, const ElementShape& inner,
-                       std::span<const geometry::ConvexBlocker* const> blockers);
+  /// The integrand of the hidden part of inner at a point in front of its plane, for which that is in front of the
+  /// horizon.
+  Value hidden_at(const Vec3& x, const ElementShape& inner, const Integrand& integrand,
+                  std::span<const geometry::ConvexBlocker* const> blockers);
 
   std::uint64_t points() const { return points_; }  ///< at which hidden parts were found, so far
 
@@ -86,8 +100,9 @@ class HiddenExchange {
     bool uncut = false;      ///< too many lines go through it: nothing is known of it but by its nodes
     double ratio = 1;        ///< of its radius to its distance from the edges that shape the shadows
     int rung = 0;
-    double value = 0, error = 0;
-    double by_border = 0;  ///< with several parts, or near an edge: the value by nodes at corners and sides
+    double error = 0;
+    Value value{};
+    Value by_border{};  ///< with several parts, or near an edge: the value by nodes at corners and sides
     std::span<const Vec3> ring() const { return {corner.data(), corners}; }
     friend bool operator<(const Cell& a, const Cell& b) { return a.error < b.error; }
   };
@@ -98,7 +113,6 @@ class HiddenExchange {
   void look(const Vec3& eye, const ElementShape& inner);
   void hide(const Vec3& eye, const PairShadow& shadow, geometry::HiddenPart& part);
   void hide(const Vec3& eye, const geometry::ConvexBlocker& blocker, geometry::HiddenPart& part);
-  double factor_of_hidden(const Vec3& normal) const;
   std::uint64_t form_seen(const Vec3& eye, const ElementShape& inner, const ShadowSet& past);
 
   ShadowEvents events_;
@@ -112,6 +126,33 @@ class HiddenExchange {
   std::vector<Vec3> relative_;
   geometry::RingList rings_;
   std::vector<Cell> cells_;
+};
+
+/// F_{dA -> hidden part}, by Lambert's formula.
+struct LambertOfParts {
+  using Value = double;
+  static constexpr int degrees = 0;
+  Vec3 normal;
+
+  double at(const Vec3& x, const geometry::RingList& parts) const;
+  double at_whole(const Vec3& x, std::span<const Vec3> ring) const;
+  static double zero() { return 0; }
+  static double size(double value) { return std::abs(value); }
+};
+
+/// Of constants.
+class HiddenExchange : public HiddenExchangeOf<LambertOfParts> {
+ public:
+  using HiddenExchangeOf::HiddenExchangeOf;
+  HiddenIntegral operator()(const ElementShape& outer, const ElementShape& inner,
+                            std::span<const geometry::ConvexBlocker* const> blockers, double tolerance) {
+    return HiddenExchangeOf::operator()(outer, inner, {outer.plane.normal}, blockers, tolerance);
+  }
+  /// F_{dA -> hidden part of inner}
+  double hidden_factor(const Vec3& x, const Vec3& normal, const ElementShape& inner,
+                       std::span<const geometry::ConvexBlocker* const> blockers) {
+    return hidden_at(x, inner, {normal}, blockers);
+  }
 };
 
 }  // namespace interflect::fem

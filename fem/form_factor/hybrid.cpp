@@ -88,6 +88,6 @@ class Hybrid::Points final : public PairOcclusion {
   std::vector<std::uint8_t> blocked_;
 };
 
-std::unique_ptr<PairOcclusion> Hybrid::occlusion() const { return std::make_unique<Points>(*this); }
+std::unique_ptr<PairWork> Hybrid::work() const { return std::make_unique<Points>(*this); }
 
 }  // namespace interflect::fem

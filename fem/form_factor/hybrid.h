@@ -22,7 +22,7 @@ class Hybrid final : public PairMethod {
 
  private:
   class Points;
-  std::unique_ptr<PairOcclusion> occlusion() const override;
+  std::unique_ptr<PairWork> work() const override;
 
   std::uint64_t seed_;
 };

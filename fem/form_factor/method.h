@@ -77,6 +77,7 @@ struct FormFactorContext {
   double tolerance = 1e-3;   ///< relative, of the quadrature of one entry
   int visibility_rays = 16;  ///< per pair that is neither clear nor dark; at least 4
   int resolution = 256;      ///< cells across the top of a hemicube, or across a plane
+  int order = 0;             ///< of the polynomials on an element: a method's highest_order at most
   std::uint64_t samples =
       0;  ///< of a Monte Carlo method: a pair, a row, or in all; 0: as many as the tolerance asks for
 };

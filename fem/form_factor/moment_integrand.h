@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "fem/form_factor/polynomial_emitter.h"
 #include "fem/space/plane_basis.h"
+#include "geometry/hidden_part.h"
 
 namespace interflect::fem {
 
@@ -19,16 +21,27 @@ class MomentIntegrand {
 
   /// All outlive this.
   MomentIntegrand(const PlaneBasis& receiver, const Vec3& normal, const PlaneBasis& emitter)
-      : receiver_(receiver), normal_(normal), emitter_(emitter) {}
+      : degrees(receiver.order()), receiver_(receiver), normal_(normal), emitter_(emitter) {}
 
-  /// From a convex part of the emitter, none of it below x's horizon.
-  PlaneBasis::Values irradiance(const Vec3& x, std::span<const Vec3> part) const {
-    std::array<double, PlaneBasis::most_functions> integrals;
-    point_to_monomials(x, normal_, part, emitter_.frame(), emitter_.order(), integrals);
-    return emitter_.of_monomials(integrals);
+  int degrees;  ///< of its own polynomials
+
+  /// Of a convex polygon on the emitter, none of it below x's horizon.
+  Value at_whole(const Vec3& x, std::span<const Vec3> ring) const {
+    Integrals integrals;
+    point_to_monomials(x, normal_, ring, emitter_.frame(), emitter_.order(), integrals);
+    return weighed(x, integrals);
   }
-  Value weighed(const Vec3& x, const PlaneBasis::Values& irradiance) const {
-    return receiver_.at(x) * irradiance.transpose();
+  /// Of several, relative to x.
+  Value at(const Vec3& x, const geometry::RingList& parts) const {
+    PlaneFrame frame = emitter_.frame();
+    frame.origin -= x;
+    Integrals sum{}, integrals{};
+    const auto add = [&](std::span<const Vec3> part) {
+      point_to_monomials(Vec3::Zero(), normal_, part, frame, emitter_.order(), integrals);
+      for (std::size_t a = 0; a < sum.size(); ++a) sum[a] += integrals[a];
+    };
+    for (std::size_t k = 0; k < parts.size(); ++k) for_fans(parts[k], add);
+    return weighed(x, sum);
   }
   Value zero() const { return Value::Zero(receiver_.size(), emitter_.size()); }
   static double size(const Value& value) { return value.cwiseAbs().maxCoeff(); }
@@ -36,6 +49,26 @@ class MomentIntegrand {
   static Value greatest(const Value& a, const Value& b) { return a.cwiseMax(b); }
 
  private:
+  using Integrals = std::array<double, PlaneBasis::most_functions>;  ///< those that the order has
+
+  /// A convex ring as those of few enough corners.
+  template <class F>
+  static void for_fans(std::span<const Vec3> ring, const F& f) {
+    constexpr std::size_t most = 16;
+    if (ring.size() <= most) return f(ring);
+    std::array<Vec3, most> fan;
+    fan[0] = ring[0];
+    for (std::size_t first = 1; first + 1 < ring.size();) {
+      const std::size_t count = std::min(most - 1, ring.size() - first);
+      std::copy_n(ring.begin() + static_cast<std::ptrdiff_t>(first), count, fan.begin() + 1);
+      f(std::span<const Vec3>(fan).first(count + 1));
+      first += count - 1;
+    }
+  }
+  Value weighed(const Vec3& x, const Integrals& integrals) const {
+    return receiver_.at(x) * emitter_.of_monomials(integrals).transpose();
+  }
+
   const PlaneBasis& receiver_;
   Vec3 normal_;
   const PlaneBasis& emitter_;

@@ -10,7 +10,7 @@ class PairMethod::ClusterPair {
   ClusterPair(const PairMethod& method, const ElementCluster& a, const ElementCluster& b)
       : method_(method), a_(a), b_(b) {}
 
-  void exchange(Index i, Index j, ExchangeSink& sink, PairOcclusion& occlusion, PairCounts& counts) {
+  void exchange(Index i, Index j, ExchangeSink& sink, PairWork& work, PairCounts& counts) {
     const PairIntegral unoccluded = method_.integrate_(i, j);
     if (unoccluded.facing == Facing::away) {
       ++counts.facing_away;
@@ -23,16 +23,16 @@ class PairMethod::ClusterPair {
     if (!candidates_) find_candidates();
     if (planar_ && candidates_->empty()) {
       ++counts.clear;
-      sink.add(i, j, {value, 0, unoccluded.error});
+      work.clear(i, j, kept, sink);
       return;
     }
     const geometry::Shaft shaft(shapes[i].ring(), shapes[j].ring(), shapes.plane_tolerance());
     if (planar_ ? !method_.blockers_.any(shaft, *candidates_) : !method_.blockers_.any(shaft)) {
       ++counts.clear;
-      sink.add(i, j, {value, 0, unoccluded.error});
+      work.clear(i, j, kept, sink);
       return;
     }
-    sink.add(i, j, occlusion({i, j, kept, shaft, planar_ ? &*candidates_ : nullptr}, counts));
+    work.doubtful({i, j, kept, shaft, planar_ ? &*candidates_ : nullptr}, sink, counts);
   }
 
  private:
@@ -62,7 +62,7 @@ PairMethod::PairMethod(const FormFactorContext& context)
 PairCounts PairMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
                                 const Run& run) const {
   PairCounts counts;
-  const std::unique_ptr<PairOcclusion> work = occlusion();
+  const std::unique_ptr<PairWork> of_thread = work();
   const auto within = [](const ElementBlock& block, const ElementCluster& cluster) {
     const auto begin = std::lower_bound(cluster.elements.begin(), cluster.elements.end(), block.first);
     return std::span(begin, std::lower_bound(begin, cluster.elements.end(), block.first + block.count));
@@ -76,7 +76,7 @@ PairCounts PairMethod::exchange(const ElementBlock& rows, const ElementBlock& co
       ClusterPair between(*this, a, b);
       for (const Index i : of_rows)
         for (const Index j : of_columns)
-          if (i < j) between.exchange(i, j, sink, *work, counts);
+          if (i < j) between.exchange(i, j, sink, *of_thread, counts);
     }
   }
   return counts;

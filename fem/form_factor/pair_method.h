@@ -19,11 +19,26 @@ struct DoubtfulPair {
   const std::vector<std::uint32_t>* among;  ///< all blockers that reach into it are among these; null: among all
 };
 
-/// What a method does with doubtful pairs, in one thread; it may hold memory for that.
-class PairOcclusion {
+/// What a method writes of pairs that exchange something, in one thread; it may hold memory for that.
+class PairWork {
  public:
-  virtual ~PairOcclusion() = default;
+  virtual ~PairWork() = default;
+  /// @param K  bounded: 0 <= K <= min(A_i, A_j)
+  virtual void clear(Index i, Index j, const PairIntegral& K, ExchangeSink& sink) = 0;
+  virtual void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) = 0;
+};
+
+/// The same of constants, one entry a pair: what a method does with doubtful pairs is all that it adds.
+class PairOcclusion : public PairWork {
+ public:
   virtual ExchangeEntry operator()(const DoubtfulPair& pair, PairCounts& counts) = 0;
+
+  void clear(Index i, Index j, const PairIntegral& K, ExchangeSink& sink) final {
+    sink.add(i, j, {K.value, 0, K.error});
+  }
+  void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) final {
+    sink.add(pair.i, pair.j, (*this)(pair, counts));
+  }
 };
 
 /// Methods that go from pair to pair, K_ij = K_ij,unoccluded V_ij.
@@ -39,7 +54,7 @@ class PairMethod : public FormFactorMethod {
  protected:
   explicit PairMethod(const FormFactorContext& context);
 
-  virtual std::unique_ptr<PairOcclusion> occlusion() const = 0;  ///< for one thread
+  virtual std::unique_ptr<PairWork> work() const = 0;  ///< for one thread
 
   const FormFactorContext& context() const { return context_; }
   const PairIntegrator& integrator() const { return integrate_; }

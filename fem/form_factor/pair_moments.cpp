@@ -34,7 +34,7 @@ struct FunctionNodes {
 struct WholeIntegrand : MomentIntegrand {
   WholeIntegrand(const MomentIntegrand& of, std::span<const Vec3> ring) : MomentIntegrand(of), inner(ring) {}
   std::span<const Vec3> inner;
-  Value at(const Vec3& x) const { return weighed(x, irradiance(x, inner)); }
+  Value at(const Vec3& x) const { return at_whole(x, inner); }
 };
 
 /// Of the closed form's monomials about the foot, which cancel where that is far from the inner element.

@@ -34,6 +34,7 @@ class MomentIntegrator {
   PairMoments operator()(Index i, Index j, const PairIntegral& constants) const;
   const PlaneBasis& basis(Index i) const { return bases_[static_cast<std::size_t>(i)]; }
   int order() const { return order_; }
+  Index functions() const { return plane_functions(order_); }  ///< of any element
 
  private:
   PairMoments unclipped(Index i, const ElementShape& a, Index j, const ElementShape& b, double tolerance) const;
