@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fem/form_factor/hidden_exchange.h"
+#include "fem/form_factor/moment_integrand.h"
 #include "fem/form_factor/pair_integral.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "geometry/box.h"
@@ -88,27 +89,29 @@ class PointViewFactors::Receiver {
         x_(at.position - of.shapes_.origin()),
         n_(at.normal),
         horizon_{n_, n_.dot(x_)},
-        hidden_(rounding()) {
-    // What a shaft can be made from: a triangle too small to matter.
-    const Vec3 u = n_.unitOrthogonal(), v = n_.cross(u);
-    const double size = 8 * rounding();
-    triangle_ = {x_ + size * u, x_ + size * (-0.5 * u + 0.9 * v), x_ + size * (-0.5 * u - 0.9 * v)};
-  }
+        triangle_(around(x_, n_, 8 * rounding())),
+        here_(0, triangle_, n_),
+        hidden_(rounding()),
+        hidden_moments_(rounding()) {}
 
   void look(const ElementCluster& cluster, std::span<double> F, std::span<double> error) {
     std::optional<std::vector<std::uint32_t>> among;
+    const auto functions = static_cast<std::size_t>(of_.functions());
     for (const Index j : cluster.elements) {
       const auto to = static_cast<std::size_t>(j);
       if (!may_see(j, error[to])) continue;
       if (!among && cluster.rectangle) among = of_.blockers_.candidates(shaft(*cluster.rectangle));
       find_blockers(j, among ? &*among : nullptr);
-      const Integral seen = look(of_.shapes_[j]);
-      F[to] = seen.value;
-      error[to] = seen.error;
+      error[to] = look(j, F.subspan(to * functions, functions));
     }
   }
 
  private:
+  /// What a shaft can be made from: a triangle too small to matter.
+  static std::array<Vec3, 3> around(const Vec3& x, const Vec3& n, double size) {
+    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+    return {x + size * u, x + size * (-0.5 * u + 0.9 * v), x + size * (-0.5 * u - 0.9 * v)};
+  }
   double rounding() const { return of_.shapes_.plane_tolerance(); }
   geometry::Shaft shaft(std::span<const Vec3> ring) const { return geometry::Shaft(triangle_, ring, rounding()); }
 
@@ -134,14 +137,17 @@ class PointViewFactors::Receiver {
     for (const std::uint32_t k : found_) list_.push_back(&of_.blockers_[k]);
   }
 
-  Integral look(const ElementShape& shape) {
+  /// @param out  the element's functions   @return  the error
+  double look(Index j, std::span<double> out) {
+    const ElementShape& shape = of_.shapes_[j];
     const bool crosses =
         std::any_of(shape.ring().begin(), shape.ring().end(), [&](const Vec3& p) { return horizon_.distance(p) < 0; });
-    double whole = 0, seen = 0;
+    double whole = 0;
     const auto add = [&](const ElementShape& piece) {
       const double F = point_to_polygon_above_horizon(x_, n_, piece.ring());
       whole += F;
-      seen += list_.empty() ? F : std::max(0.0, F - hidden_.hidden_factor(x_, n_, piece, list_));
+      out[0] += list_.empty() ? F : std::max(0.0, F - hidden_.hidden_factor(x_, n_, piece, list_));
+      if (of_.order_ > 0) add_moments(j, piece, out);
     };
     if (crosses) {
       const Pieces pieces = pieces_in_front(shape, horizon_);
@@ -153,7 +159,15 @@ class PointViewFactors::Receiver {
     double error = outline.error;
     for (const geometry::ConvexBlocker* blocker : list_)
       error += shadow_error(*blocker, shape, 0.5 * outline.arc, whole);
-    return {std::min(1.0, seen), std::min(1.0, error)};
+    out[0] = std::min(1.0, out[0]);
+    return std::min(1.0, error) * (of_.order_ > 0 ? of_.bases_[static_cast<std::size_t>(j)].largest() : 1.0);
+  }
+  /// Of all functions but the first.
+  void add_moments(Index j, const ElementShape& piece, std::span<double> out) {
+    const MomentIntegrand integrand(here_, n_, of_.bases_[static_cast<std::size_t>(j)]);
+    Moments seen = integrand.at_whole(x_, piece.ring());
+    if (!list_.empty()) seen -= hidden_moments_.hidden_at(x_, piece, integrand, list_);
+    for (std::size_t b = 1; b < out.size(); ++b) out[b] += seen(0, static_cast<Index>(b));
   }
 
   /// @param arc    across the element, at most
@@ -182,17 +196,23 @@ class PointViewFactors::Receiver {
   Vec3 x_, n_;  ///< x relative to the shapes' origin
   geometry::Plane horizon_;
   std::array<Vec3, 3> triangle_;
+  PlaneBasis here_;  ///< 1
   HiddenExchange hidden_;
+  HiddenExchangeOf<MomentIntegrand> hidden_moments_;
   std::vector<std::uint32_t> found_;
   BlockerList list_;
 };
 
-PointViewFactors::PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches)
+PointViewFactors::PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int order)
     : patches_(patches),
       shapes_(patches),
       clusters_(clusters_of(patches, shapes_)),
       blockers_(scene, shapes_.origin(), shapes_.plane_tolerance()),
-      delta_(4 * eps * largest_coordinate(scene, patches)) {}
+      order_(order),
+      delta_(4 * eps * largest_coordinate(scene, patches)) {
+  for (Index j = 0; order > 0 && j < elements(); ++j)
+    bases_.emplace_back(order, shapes_[j].ring(), shapes_[j].plane.normal);
+}
 
 void PointViewFactors::operator()(const measure::PointIrradiance& at, std::span<double> F,
                                   std::span<double> error) const {
@@ -211,7 +231,8 @@ void assemble_points(const PointViewFactors& factors, std::span<const measure::P
   run.threads.for_blocks(static_cast<Index>(missing.size()), 1, [&](Index k, Index) {
     run.throw_if_stopped("point view factors");
     const Index s = missing[static_cast<std::size_t>(k)];
-    std::vector<double> F(static_cast<std::size_t>(factors.elements())), error(F.size());
+    std::vector<double> F(static_cast<std::size_t>(factors.elements() * factors.functions())),
+        error(static_cast<std::size_t>(factors.elements()));
     factors(points[static_cast<std::size_t>(s)], F, error);
     store.write(s, F, error);
     stage.advance(1);

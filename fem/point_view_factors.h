@@ -6,6 +6,7 @@
 #include "core/run.h"
 #include "fem/form_factor/blockers.h"
 #include "fem/form_factor/element_clusters.h"
+#include "fem/space/plane_basis.h"
 #include "measure/measurement.h"
 
 namespace interflect::fem {
@@ -27,14 +28,23 @@ namespace interflect::fem {
 /// for each edge of j, and for each edge of a blocker that may hide a part of j, whose arc across j is not longer than
 /// half of j's outline; where a blocker goes through j, delta is divided by the sine of the angle between their planes.
 /// A point in the plane of a polygon, within rounding, does not see its side and is not hidden by it; the other answer
-/// counts as error. Test: tests/fem/point_view_factors.cpp
+/// counts as error.
+///
+/// With polynomials on elements there is a number for each function, of a radiosity that is N_b, in closed form too
+/// (polynomial_emitter.h): sum_b F_{dA->b} c_b is the irradiance of what is computed, and E + rho times that the
+/// iterated solution [Sloan 1976]. Errors of an element's functions are those of constants times what functions are at
+/// most.
+/// Test: tests/fem/point_view_factors.cpp, tests/fem/space/rooms.cpp
 class PointViewFactors {
  public:
   /// The patches outlive this.
-  PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches);
+  /// @param order  of polynomials on the elements, 0 .. 3
+  PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int order = 0);
 
   Index elements() const { return static_cast<Index>(patches_.size()); }
-  /// @param F, error  one per element, in [0, 1]; error may exceed F
+  Index functions() const { return plane_functions(order_); }  ///< of an element
+  /// @param F      one per element and function; of the first function in [0, 1]
+  /// @param error  one per element; may exceed F
   void operator()(const measure::PointIrradiance& at, std::span<double> F, std::span<double> error) const;
 
  private:
@@ -44,7 +54,9 @@ class PointViewFactors {
   ElementShapes shapes_;
   std::vector<ElementCluster> clusters_;
   Blockers blockers_;
-  double delta_ = 0;  ///< what a position relative to another may be off [m]
+  int order_;
+  std::vector<PlaneBasis> bases_;  ///< none of constants
+  double delta_ = 0;               ///< what a position relative to another may be off [m]
 };
 
 /// Where rows of points go.
