@@ -2,20 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fem/form_factor/adaptive_cells.h"
 #include "fem/form_factor/far_field.h"
 #include "fem/kernel.h"
+#include "geometry/segment.h"
 
 namespace interflect::fem {
 namespace {
 
-constexpr int most_points = 4;  ///< a side, of rules_of
+constexpr int most_points = MomentIntegrator::most_points;
+constexpr Index most_nodes = (most_points + 1) * (most_points + 1);
+constexpr double farthest_reach = 1.2;  ///< radii over distance, up to which a product rule is tried
 constexpr std::size_t most_cells = 4000;
-/// Of the difference to a rule with one node a side less, times the square of the reach: fitted.
-double left_by_a_step(const FarPair& pair, int order) {
-  const bool any_triangle = pair.triangles[0] || pair.triangles[1];
-  return any_triangle ? (order == 3 ? 6 : 4) : 2;
+/// From corners of one element to the other, its sides or its inside [m].
+double corners_to(const ElementShape& from, const ElementShape& to) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Vec3& x : from.ring()) {
+    bool inside = true;
+    for (std::size_t k = 0; k < to.corners; ++k) {
+      const Vec3 &p = to.corner[k], &q = to.corner[(k + 1) % to.corners];
+      distance = std::min(distance, geometry::distance_to_segment(x, p, q));
+      inside = inside && to.plane.normal.dot((q - p).cross(x - p)) > 0;
+    }
+    if (inside) distance = std::min(distance, std::abs(to.plane.distance(x)));
+  }
+  return distance;
+}
+
+/// What is left of the difference to a rule with one node a side less.  On an interval of half length h whose kernel is
+/// singular at the distance d, one node more leaves rho^-2 with rho = 1 + d / h + sqrt((1 + d / h)² - 1) of Bernstein's
+/// ellipse [Trefethen 2008]; the factors before it are fitted.
+double left_by_a_step(const ElementShape& a, const ElementShape& b, int order) {
+  double longest = 0;
+  for (const ElementShape* shape : {&a, &b})
+    for (std::size_t k = 0; k < shape->axis_count; ++k) longest = std::max(longest, shape->axis[k].length);
+  const double x = 1 + std::min(corners_to(a, b), corners_to(b, a)) / longest, rho = x + std::sqrt(x * x - 1);
+  const bool any_triangle = a.corners == 3 || b.corners == 3;
+  return (any_triangle ? (order == 3 ? 24 : 20) : 8) / (rho * rho);
 }
 
 /// Nodes of a part of an element, with the whole one's functions there.
@@ -27,8 +52,22 @@ struct FunctionNodes {
       weighed.col(static_cast<Index>(k)) = nodes[k].weight * basis.at(nodes[k].position);
   }
   std::vector<SurfaceNode> nodes;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, PlaneBasis::most_functions, 16> weighed;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, PlaneBasis::most_functions, most_nodes> weighed;
 };
+
+/// Of n Gauss nodes a side.  On triangles, beyond the symmetric ones, of n + 1 as products in (u / (1 - v), v), whose
+/// Jacobian takes one degree: degree 2n.
+RulePair rules_with(int points) {
+  if (points <= 4) return rules_of(points);
+  RulePair rules{{}, quad_rule(points)};
+  double sum = 0;
+  for (const RuleNode& node : quad_rule(points + 1)) {
+    rules.triangle.push_back({node.u * (1 - node.v), node.v, node.weight * (1 - node.v)});
+    sum += rules.triangle.back().weight;
+  }
+  for (RuleNode& node : rules.triangle) node.weight /= sum;
+  return rules;
+}
 
 /// Of the whole inner element, or of a clipped one.
 struct WholeIntegrand : MomentIntegrand {
@@ -59,15 +98,18 @@ PairMoments near(const ElementShape& outer, const PlaneBasis& of_outer, const El
 
 MomentIntegrator::MomentIntegrator(const ElementShapes& shapes, int order, double tolerance)
     : shapes_(shapes), order_(order), tolerance_(tolerance) {
+  for (int points = 1; points <= most_points; ++points)
+    rules_[static_cast<std::size_t>(points - 1)] = rules_with(points);
   for (Index i = 0; i < shapes.size(); ++i) bases_.emplace_back(order, shapes[i].ring(), shapes[i].plane.normal);
 }
 
 Moments MomentIntegrator::by_products(Index i, const ElementShape& a, Index j, const ElementShape& b,
                                       int points) const {
-  const RulePair& rules = shapes_.rules(points - 1);
+  const RulePair& rules = rules_[static_cast<std::size_t>(points - 1)];
   const FunctionNodes of_a(a, basis(i), rules.of(a.corners)), of_b(b, basis(j), rules.of(b.corners));
   const SpaceKernel kernel;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 16, 16> k(std::ssize(of_a.nodes), std::ssize(of_b.nodes));
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_nodes, most_nodes> k(std::ssize(of_a.nodes),
+                                                                                     std::ssize(of_b.nodes));
   for (Index p = 0; p < k.rows(); ++p)
     for (Index q = 0; q < k.cols(); ++q)
       k(p, q) = kernel(of_a.nodes[static_cast<std::size_t>(p)].position, a.plane.normal,
@@ -78,15 +120,14 @@ Moments MomentIntegrator::by_products(Index i, const ElementShape& a, Index j, c
 std::optional<PairMoments> MomentIntegrator::far(Index i, const ElementShape& a, Index j, const ElementShape& b,
                                                  double tolerance) const {
   const FarPair pair = far_pair(a, b);
-  const auto rule = far_rule(pair, tolerance_);
-  if (!rule) return std::nullopt;
-  const double reach =
-      *std::max_element(pair.reach.begin(), pair.reach.begin() + static_cast<std::ptrdiff_t>(pair.count));
-  int points = std::clamp(rule->level + 1 + (order_ + 1) / 2, 2, most_points);
+  if (!(pair.q < farthest_reach)) return std::nullopt;
+  const auto of_constants = far_rule(pair, tolerance_);
+  const double left = left_by_a_step(a, b, order_);
+  int points = std::max(2, (of_constants ? of_constants->level + 1 : ElementShapes::levels) + (order_ + 1) / 2);
   PairMoments block{by_products(i, a, j, b, points - 1), 0};
   for (; points <= most_points; ++points) {
     Moments finer = by_products(i, a, j, b, points);
-    block.error = left_by_a_step(pair, order_) * reach * reach * (finer - block.value).cwiseAbs().maxCoeff();
+    block.error = left * (finer - block.value).cwiseAbs().maxCoeff();
     block.value = std::move(finer);
     if (block.error <= tolerance) return block;
   }

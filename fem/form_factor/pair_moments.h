@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -17,9 +18,9 @@ struct PairMoments {
 
 /// Blocks of K of polynomials on pairs of elements, as if nothing lay between:
 ///
-/// 1. far pairs by a product rule on both elements, with as many nodes more than constants need (far_field.h) as the
-///    polynomials take of its degrees.  The error is taken from the difference to the rule with one node a side less,
-///    of which a part of the order of t² is left, t being the elements' reach over their distance.
+/// 1. pairs that are apart by a product rule on both elements, with as many nodes more than constants need (far_field.h)
+///    as the polynomials take of its degrees, up to 7 a side.  The error is taken from the difference to the rule with
+///    one node a side less, of which what Bernstein's ellipse knows is left, by how far they are apart and how long.
 /// 2. others by the closed form for one point (polynomial_emitter.h) inside and adaptive cells of Gauss rules outside
 ///    (adaptive_cells.h), on the smaller element.  Touching elements, too: the inner integral is exact, and what is left
 ///    is bounded and rough at the common edge alone, where cells shrink.
@@ -27,6 +28,8 @@ struct PairMoments {
 /// Elements that reach through each other's planes are clipped first.
 class MomentIntegrator {
  public:
+  static constexpr int most_points = 7;  ///< of a product rule, a side
+
   /// @param tolerance  of each entry, relative to K_00
   MomentIntegrator(const ElementShapes& shapes, int order, double tolerance);
 
@@ -45,6 +48,7 @@ class MomentIntegrator {
   const ElementShapes& shapes_;
   int order_;
   double tolerance_;
+  std::array<RulePair, most_points> rules_;
   std::vector<PlaneBasis> bases_;
 };
 
