@@ -87,9 +87,19 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
   command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")
       ->transform(memory())
       ->default_str(core::format_bytes(s.max_memory));
-  command.add_option("--form-factors", s.form_factors, "Form-factor method")
-      ->check(CLI::IsMember(fem::form_factor_names()))
-      ->capture_default_str();
+  CLI::Option* method = command.add_option("--form-factors", s.form_factors, "Form-factor method")
+                            ->check(CLI::IsMember(fem::form_factor_names()))
+                            ->capture_default_str();
+  command
+      .add_option_function<int>(
+          "--order",
+          [&s, method](int order) {
+            s.order = order;
+            if (order > 0 && method->empty()) s.form_factors = "analytic";
+          },
+          "Degree of the polynomials on an element; from 1 on with form factors by analytic")
+      ->check(CLI::Range(0, 3))
+      ->default_str("0");
   command.add_option(
       "--factors", options.factors,
       "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");

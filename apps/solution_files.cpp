@@ -112,6 +112,7 @@ results::Record settings_record(const fem::RadiositySettings& settings, const Ra
   results::Record record;
   record.add("element_size_m", solution.element_size)
       .add("form_factors", settings.form_factors)
+      .add("order", settings.order)
       .add("solver", settings.solver)
       .add("solver_tolerance", settings.stopping.tolerance)
       .add("intersector", settings.intersector)

@@ -170,6 +170,18 @@ void add_solver(RadiositySolution& s) {
   for (Spectrum& e : s.irradiance_error) e += error;
 }
 
+/// What irradiance does inside elements, and what that does to their neighbours.
+void add_field(RadiositySolution& s, const ErrorSources& from, Run& run) {
+  const auto neighbours =
+      from.polynomials != nullptr ? std::vector<Spectrum>(s.radiosity.size()) : neighbour_errors(s, from.K, run);
+  s.field_error.resize(s.radiosity.size());
+  for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
+    s.irradiance_error[i] += neighbours[i];
+    s.field_error[i] =
+        s.reflectance[i] * (from.polynomials != nullptr ? from.polynomials->variation[i] : irradiance_variation(s, i));
+  }
+}
+
 }  // namespace
 
 Spectrum irradiance_variation(const RadiositySolution& s, std::size_t element) {
@@ -194,18 +206,14 @@ void estimate_errors(RadiositySolution& s, const ErrorSources& from, int channel
   const SampledNoise noise = sampled_noise(s, from.K, channels, run);
   set_noise(s, noise);
   if (from.both_converged)
-    add_discretisation(s, halving_differences(s, from.K, channels, run));
+    add_discretisation(s, from.polynomials != nullptr ? from.polynomials->mean_irradiance
+                                                      : halving_differences(s, from.K, channels, run));
   else
     s.irradiance_error.assign(s.radiosity.size(), Spectrum(std::numeric_limits<double>::infinity()));
   add_quadrature(s, from);
   add_solver(s);
   add_dropped(s, from.K, channels, run);
-  const std::vector<Spectrum> neighbours = neighbour_errors(s, from.K, run);
-  s.field_error.resize(s.radiosity.size());
-  for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
-    s.irradiance_error[i] += neighbours[i];
-    s.field_error[i] = s.reflectance[i] * irradiance_variation(s, i);
-  }
+  add_field(s, from, run);
   if (s.closed || from.environment != nullptr) add_closure(s, lacking(s, from, noise));
 }
 

@@ -2,7 +2,7 @@
 
 #include "fem/environment_column.h"
 #include "fem/operator/symmetric_operator.h"
-#include "fem/radiosity.h"
+#include "fem/polynomial_radiosity.h"
 
 namespace interflect::fem {
 
@@ -14,6 +14,8 @@ struct ErrorSources {
   std::span<const double> row_bound;       ///< sum_j bound_ij / A_i, in place of that tolerance; empty: not known
   const EnvironmentColumn* environment = nullptr;  ///< of an open scene, where it was found
   bool both_converged = true;  ///< the solves at either size: else nothing bounds the discretisation error
+  /// Of polynomials, what their highest degree adds: in place of the halving, of neighbours and of the field's variation.
+  const PolynomialChange* polynomials = nullptr;
 };
 
 /// Fills irradiance_error, irradiance_noise, shared_noise and field_error of a solution whose other fields are there.
@@ -46,6 +48,10 @@ struct ErrorSources {
 /// Field.  Constants differ from the iterated B_1 by its variation inside the element.  For a linear field the root mean
 /// square over an element is 1/sqrt(3) of that between the four children of a parent, for triangles and parallelograms alike;
 /// that is what is taken:  field_error_i = rho_i rms_children(H_k - H_parent) / sqrt(3).
+///
+/// Polynomials.  |h_p - h_{p-1}| of elements' means stands for |D|: means converge with the order 2p + 2 where the solution
+/// is smooth, so that it is mostly far more than the error that is left.  Functions show what radiosity does inside
+/// elements, so that neighbours add nothing, and the field's error is what those of the highest degree make of H.
 /// Test: tests/fem/error_estimate.cpp, by coverage.
 void estimate_errors(RadiositySolution& solution, const ErrorSources& from, int channels, Run& run);
 

@@ -5,6 +5,7 @@
 #include "core/format.h"
 #include "fem/method_trial.h"
 #include "fem/radiosity_operator.h"
+#include "fem/space/polynomials.h"
 #include "fem/tolerance_trial.h"
 #include "mesh/uniform.h"
 
@@ -29,12 +30,13 @@ double bytes_a_pair_on_the_way(Granularity granularity) {
   return 0;
 }
 
-/// K and its errors (8 and at most 4 bytes a pair), with the coarse mesh's K (a sixteenth of its entries); sparse: at
+/// Of polynomials K of constants and of all functions; else K and its errors (8 and at most 4 bytes a pair), with the coarse mesh's K (a sixteenth of its entries); sparse: at
 /// most N / drop_below pairs of 20 bytes while they come, 16 afterwards, and a coarse K of as many entries or a
 /// sixteenth of all.  And what each element carries.
 double predicted_bytes(double elements, const RadiositySettings& settings, Granularity granularity) {
   const double pairs = 0.5 * elements * elements, on_the_way = pairs * bytes_a_pair_on_the_way(granularity),
                others = 4000.0 * elements;
+  if (settings.order > 0) return (8 + 8 * std::pow(plane_functions(settings.order), 2)) * pairs + others;
   if (!(settings.drop_below > 0)) return std::max(12 * pairs + on_the_way, 12.75 * pairs) + others;
   const double kept = std::min(pairs, elements / settings.drop_below);
   return std::max(20 * kept + on_the_way, 16 * kept + 20 * std::min(kept, pairs / 16)) + others;
@@ -100,7 +102,8 @@ Assembly trial(const scene::Scene& scene, const RadiositySettings& settings, con
 
 double element_size_of(const scene::Scene& scene, const RadiositySettings& settings) {
   if (settings.element_size > 0) return settings.element_size;
-  return std::min(size_for(scene, default_elements), mesh::edge_for_area(mesh::active_area(scene), default_elements));
+  const double elements = default_elements / plane_functions(settings.order);  // as many unknowns
+  return std::min(size_for(scene, elements), mesh::edge_for_area(mesh::active_area(scene), elements));
 }
 
 void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings,

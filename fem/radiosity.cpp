@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "core/log.h"
 #include "core/memory.h"
 #include "fem/assembly.h"
@@ -12,6 +13,7 @@
 #include "fem/columns.h"
 #include "fem/energy.h"
 #include "fem/error_estimate.h"
+#include "fem/polynomial_radiosity.h"
 #include "fem/radiosity_operator.h"
 
 namespace interflect::fem {
@@ -126,7 +128,7 @@ void set_operator_record(RadiositySolution& s, const RadiosityOperator& from) {
   s.pairs = from.pairs;
   s.largest_row_error = from.largest_row_error;
   s.tolerance_met = from.tolerance_met;
-  s.bytes = K.bytes();
+  s.bytes = K.bytes() + (from.blocks ? from.blocks->bytes() : 0);
   s.kept_share = K.kept_share();
   if (K.dropped().empty()) return;
   const RowSums dropped = summary_of(K.dropped(), K.gram());
@@ -145,6 +147,19 @@ void balance_energy(RadiositySolution& s, const scene::Scene& scene, const rayca
   s.energy = energy_balance(s, lost);
 }
 
+/// What polynomials of order 1 and more do not go with, yet.
+void require_for_order(const RadiositySettings& settings) {
+  if (settings.order == 0) return;
+  const auto refuse = [&](const std::string& what) {
+    throw core::InputError(core::format("polynomials of order %d", settings.order), "they do not go with " + what);
+  };
+  if (settings.closure != "none") refuse("a closure that is restored");
+  if (settings.drop_below > 0) refuse("pairs left out (drop-below)");
+  if (settings.stored_factors) refuse("view factors of a file, which are of constants");
+  if (settings.row_tolerance > 0)
+    refuse("a tolerance of rows; that of entries (quadrature-tolerance) holds for theirs");
+}
+
 }  // namespace
 
 double mean_environment(const RadiositySolution& s) {
@@ -157,6 +172,7 @@ double mean_environment(const RadiositySolution& s) {
 }
 
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
+  require_for_order(settings);
   const double size = element_size_of(scene, settings);
   const int channels = scene.channel_count();
   std::vector<StageCost> stages;
@@ -180,13 +196,18 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
     s.row_sum = repair ? K.row_sums(run) : row_sum_before;
   });
   s.rows = summary_of(s.row_sum, K.gram());
-  const bool converged = timed("solve", [&] { return solve_both(s, K, settings, channels, run); });
+  PolynomialChange change;
+  const bool converged = timed("solve", [&] {
+    if (settings.order == 0) return solve_both(s, K, settings, channels, run);
+    change = solve_polynomials(s, *from.blocks, settings, channels, run);
+    return change.converged;
+  });
   timed("error estimate", [&] {
     const bool counted = settings.row_tolerance > 0 || settings.stored_factors;
     estimate_errors(
         s,
         {K, row_sum_before, settings.quadrature_tolerance, counted ? from.row_bound : std::span<const double>(),
-         environment ? &*environment : nullptr, converged},
+         environment ? &*environment : nullptr, converged, settings.order > 0 ? &change : nullptr},
         channels, run);
   });
   timed("energy balance", [&] { balance_energy(s, scene, *rays, repair, run); });

@@ -8,6 +8,7 @@
 
 #include "core/estimate.h"
 #include "fem/form_factor/method.h"
+#include "fem/polynomial_field.h"
 #include "mesh/element_mesh.h"
 #include "solvers/solver.h"
 
@@ -16,6 +17,7 @@ namespace interflect::fem {
 struct RadiositySettings {
   double element_size = 0;  ///< longest edge [m]; 0: see element_size_of
   std::string form_factors = "gauss-lambert";
+  int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic` form factors alone
   std::string solver = "gauss-seidel";
   std::string intersector = "embree";
   solvers::StoppingRule stopping;
@@ -74,7 +76,8 @@ struct RowSums {
   double mean, lowest, highest;  ///< of sum_j F_ij; 1 in a closed scene
 };
 
-/// A solved scene: constants on elements, all per element in the order of the mesh.
+/// A solved scene: constants on elements, or means of polynomials on them (`field`), all per element in the order of the
+/// mesh.
 struct RadiositySolution {
   RadiositySolution(mesh::ElementMesh elements, double longest_edge)
       : mesh(std::move(elements)), element_size(longest_edge) {}
@@ -89,7 +92,9 @@ struct RadiositySolution {
       shared_noise;  ///< the part of it that is one and the same deviation in all elements; the rest is independent
   /// |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h.
   std::vector<Spectrum> field_error;
-  std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size: its parent's value
+  std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size: its parent's value; with
+                                           ///< polynomials the mean of that of the order below
+  std::optional<PolynomialField> field;    ///< none of constants
   std::vector<double> row_sum;             ///< sum_j F_ij
   bool closed = false;                     ///< no ray that left an element was lost
   solvers::SolverReport solver;

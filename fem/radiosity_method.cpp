@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "fem/error_estimate.h"
 #include "fem/gather.h"
+#include "fem/point_view_factors.h"
 #include "geometry/overlap.h"
 
 namespace interflect::fem {
@@ -34,6 +35,7 @@ class Answers {
   Answers(const scene::Scene& scene, const RadiositySolution& solution, const raycast::RayCaster& rays,
           std::uint64_t seed)
       : scene_(scene), s_(solution), rays_(rays), seed_(seed), gather_(scene, solution.mesh.patches(), rays, seed) {
+    if (s_.field) exact_.emplace(scene, s_.mesh.patches(), s_.field->order);
     for (std::size_t i = 0; i < s_.radiosity.size(); ++i) {
       importance_.push_back(std::max(0.0, scene.weigh(s_.radiosity[i])));
       halving_.push_back(s_.radiosity[i] - s_.coarse_radiosity[i]);
@@ -49,12 +51,14 @@ class Answers {
   std::optional<std::size_t> same_element(const scene::SurfacePatch& patch) const;
   void add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& tiles) const;
   Estimate arriving_on(std::vector<Tile> tiles, bool plane) const;
+  Estimate by_polynomials(const measure::PointIrradiance& asked) const;
 
   const scene::Scene& scene_;
   const RadiositySolution& s_;
   const raycast::RayCaster& rays_;
   std::uint64_t seed_;
   Gather gather_;
+  std::optional<PointViewFactors> exact_;  ///< of polynomials
   std::vector<double> importance_;
   std::vector<Spectrum> halving_;
 };
@@ -163,7 +167,31 @@ Estimate Answers::operator()(const measure::Flux& asked) const {
   return arriving_on(std::move(tiles), face_one_way(asked.through));
 }
 
+/// Of polynomials: the iterated value without noise, less the same of the order below.
+Estimate Answers::by_polynomials(const measure::PointIrradiance& asked) const {
+  const PolynomialField& field = *s_.field;
+  std::vector<double> F(static_cast<std::size_t>(field.radiosity.rows())), rounding(s_.mesh.size());
+  (*exact_)(asked, F, rounding);
+  Spectrum value, below, sizes, from_elements;
+  const auto functions = static_cast<std::size_t>(field.functions);
+  for (std::size_t j = 0; j < rounding.size(); ++j) {
+    const std::span<const double> of_j = std::span<const double>(F).subspan(j * functions, functions);
+    const auto first = static_cast<Index>(j * functions);
+    const Spectrum mine = PolynomialField::weighed(field.radiosity, first, of_j),
+                   before = PolynomialField::weighed(field.radiosity_below, first, of_j);
+    value += mine;
+    below += before;
+    sizes += abs(mine - before);
+    from_elements += of_j[0] * (s_.reflectance[j] * s_.irradiance_error[j]) + rounding[j] * s_.radiosity[j];
+  }
+  const Spectrum difference = abs(value - below);
+  Spectrum error = from_elements;
+  for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(difference[c], 0.05 * sizes[c]);
+  return {value, Spectrum(), error, Claim::estimated, 0};
+}
+
 Estimate Answers::operator()(const measure::PointIrradiance& asked) const {
+  if (exact_) return by_polynomials(asked);
   const Gathered gathered = gather_(asked, key_of(asked), importance_);
   Spectrum sizes, from_elements, own_variance, shared;
   for (const GatheredElement& g : gathered.elements) {
@@ -197,7 +225,7 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
       continue;
     }
     const std::size_t i = element->element.value;
-    radiance.add(s_.radiosity[i] * inv_pi);
+    radiance.add((s_.field ? s_.field->at(i, hit->position) : s_.radiosity[i]) * inv_pi);
     error += inv_pi / (side * side) *
              (s_.reflectance[i] * (s_.irradiance_error[i] + s_.irradiance_noise[i]) + s_.field_error[i]);
   }

@@ -7,6 +7,7 @@
 #include "fem/operator/dense_symmetric.h"
 #include "fem/operator/sparse_symmetric.h"
 #include "fem/row_errors.h"
+#include "fem/space/polynomials.h"
 
 namespace interflect::fem {
 namespace {
@@ -22,6 +23,21 @@ struct Filled {
   PairCounts pairs;
   std::vector<double> row_errors;  ///< e_a of row_errors.h; empty: not counted
   bool met = true;
+};
+
+/// Blocks, whose first entries are those of constants.
+class BlockSink final : public ExchangeSink {
+ public:
+  BlockSink(ExchangeSink& constants, ExchangeSink& blocks, Index functions)
+      : constants_(constants), blocks_(blocks), functions_(functions) {}
+  void add(Index a, Index b, const ExchangeEntry& entry) override {
+    blocks_.add(a, b, entry);
+    if (a % functions_ == 0 && b % functions_ == 0) constants_.add(a / functions_, b / functions_, entry);
+  }
+
+ private:
+  ExchangeSink &constants_, &blocks_;
+  Index functions_;
 };
 
 /// All entries into a sink, from wherever settings say.
@@ -88,6 +104,7 @@ FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const
                                       std::uint64_t seed) {
   FormFactorContext context{scene, patches, rays, seed, settings.quadrature_tolerance, settings.visibility_rays};
   context.resolution = settings.resolution;
+  context.order = settings.order;
   context.samples = settings.samples;
   return context;
 }
@@ -97,7 +114,17 @@ RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const s
   const Source source(scene, patches, rays, settings, run);
   RadiosityOperator out;
   Filled filled;
-  if (settings.drop_below > 0) {
+  if (settings.order > 0) {
+    const int functions = plane_functions(settings.order);
+    std::vector<double> gram;
+    for (const double area : areas_of(patches)) gram.insert(gram.end(), static_cast<std::size_t>(functions), area);
+    auto K = std::make_unique<DenseSymmetric>(areas_of(patches));
+    auto blocks = std::make_unique<DenseSymmetric>(std::move(gram));
+    BlockSink sink(*K, *blocks, functions);
+    filled = source.fill(sink);
+    out.K = std::move(K);
+    out.blocks = std::move(blocks);
+  } else if (settings.drop_below > 0) {
     SparseAssembly assembly(areas_of(patches), settings.drop_below);
     filled = source.fill(assembly);
     out.K = assembly.packed(run);

@@ -11,6 +11,7 @@ namespace interflect::fem {
 /// K of a scene's elements as settings ask for it, and what is known of it.
 struct RadiosityOperator {
   std::unique_ptr<SymmetricOperator> K;
+  std::unique_ptr<SymmetricOperator> blocks;  ///< of polynomials: of all unknowns, of which K has the first of elements
   PairCounts pairs;
   /// sum_b bound_ab / A_a of what was not sampled; empty unless `row_tolerance`, `closure` or stored factors need it.
   std::vector<double> row_bound;

@@ -1,0 +1,17 @@
+#include "fem/polynomial_field.h"
+
+namespace interflect::fem {
+
+Spectrum PolynomialField::weighed(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w) {
+  Spectrum sum;
+  for (std::size_t a = 0; a < w.size(); ++a)
+    for (int c = 0; c < coefficients.cols(); ++c) sum[c] += w[a] * coefficients(first + static_cast<Index>(a), c);
+  return sum;
+}
+
+Spectrum PolynomialField::at(std::size_t element, const Vec3& x) const {
+  const PlaneBasis::Values N = bases[element].at(x);
+  return weighed(radiosity, static_cast<Index>(element) * functions, {N.data(), static_cast<std::size_t>(functions)});
+}
+
+}  // namespace interflect::fem

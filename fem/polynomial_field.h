@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/spectrum.h"
+#include "fem/space/plane_basis.h"
+#include "solvers/transport_operator.h"
+
+namespace interflect::fem {
+
+/// Radiosity as polynomials on elements, beside the constants of a RadiositySolution, which become their means.
+///
+///   B_h(x) = sum_a c_a N_a(x),    c = e + R G^-1 K c       (e: exitance, constant on elements)
+///
+/// Functions go by degree, so that the solution of the order below is that of the same equations in which functions of
+/// the highest degree neither reflect nor emit: the difference of both is what errors are estimated from.
+struct PolynomialField {
+  int order;
+  Index functions;                        ///< of an element
+  std::vector<PlaneBasis> bases;          ///< of elements
+  solvers::ColumnMatrix radiosity;        ///< c: unknowns x channels
+  solvers::ColumnMatrix radiosity_below;  ///< of the order below, on the same functions
+
+  /// B_h at a point of an element.
+  Spectrum at(std::size_t element, const Vec3& x) const;
+  /// sum_a w_a c_a of an element: w are what its functions are worth.
+  static Spectrum weighed(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
+};
+
+}  // namespace interflect::fem
