@@ -62,13 +62,16 @@ void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples
 void add_closure(CLI::App& command, std::string& closure) {
   std::vector<std::string> names = fem::closure_names();
   names.emplace_back("none");
+  CLI::Option* named =
+      command
+          .add_option("--closure", closure,
+                      "Change the form factors least so that rows, with an open scene's environment, add up to 1")
+          ->check(CLI::IsMember(names))
+          ->capture_default_str();
   command
-      .add_option("--closure", closure,
-                  "Change the form factors least so that rows, with an open scene's environment, add up to 1")
-      ->check(CLI::IsMember(names))
-      ->capture_default_str();
-  command.add_flag_callback(
-      "--restore-closure", [&closure] { closure = "scaling"; }, "The same as --closure scaling");
+      .add_flag_callback(
+          "--restore-closure", [&closure] { closure = "scaling"; }, "The same as --closure scaling")
+      ->excludes(named);
 }
 
 void add_no_pictures(CLI::App& command, bool& pictures) {

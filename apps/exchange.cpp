@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "apps/commands.h"
+#include "apps/contacts.h"
 #include "apps/read_scene.h"
 #include "apps/solution_files.h"
 #include "apps/solved_scene.h"
@@ -128,7 +129,8 @@ void write_pictures(const std::filesystem::path& folder, const scene::Scene& sce
 #endif
 
 /// Warns of what it fell short of.
-void warn_of(const ThermalExchange& exchange, const fem::RadiositySettings& settings) {
+void warn_of(const scene::Scene& scene, const ThermalExchange& exchange, const fem::RadiositySettings& settings) {
+  for (const std::string& warning : energy_warnings(scene, exchange.solution)) core::log::warning(warning);
   for (const std::string& shortfall : shortfalls_of(exchange.solution, settings)) core::log::shortfall(shortfall);
   for (const ThermalSurface& s : exchange.surfaces)
     if (s.without_temperature > 0)
@@ -141,6 +143,7 @@ void warn_of(const ThermalExchange& exchange, const fem::RadiositySettings& sett
 
 ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run) {
   const scene::Scene scene = read_and_note(options.scene, SceneUse::exchange);
+  warn_of_contacts(scene, *raycast::make_ray_caster("brute", scene));
   const results::OutputDirectory folder(options.out);
   const ThermalExchange found = fem::solve_exchange(scene, options.settings, options.environment, run);
   const results::Record record = record_of(found, options);
@@ -150,7 +153,7 @@ ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common,
 #ifdef INTERFLECT_WITH_VTK
   if (options.pictures) write_pictures(options.out, scene, found);
 #endif
-  warn_of(found, options.settings);
+  warn_of(scene, found, options.settings);
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)

@@ -73,11 +73,11 @@ std::vector<double> row_changes(const fem::DenseSymmetric& repaired, const Facto
 
 /// F_i,env and its errors: the rays' 95 % and what it moved, or, as it is 1 less the row, the row's.
 void set_environment(results::FactorElements& about, const fem::EnvironmentColumn& found,
-                     std::span<const double> repaired, const FactorStore& store, std::span<const double> row_changes) {
+                     std::span<const double> repaired, const FactorStore& store) {
   for (std::size_t i = 0; i < repaired.size(); ++i) {
     const double by_rays = normal_95 * found.standard_error[i] + std::abs(repaired[i] - found.factor[i]);
     about.environment.push_back(repaired[i]);
-    about.environment_error.push_back(std::min(by_rays, store.row_error()[i] + row_changes[i]));
+    about.environment_error.push_back(std::min(by_rays, store.row_error()[i] + about.closure_change[i]));
   }
 }
 
@@ -127,7 +127,8 @@ void write_repaired(const std::filesystem::path& file, const results::FactorStor
   settings.environment = environment ? &*environment : nullptr;
   const fem::ClosureReport report = fem::restore_closure(K, run, settings);
   results::FactorElements about = repair.request.about;
-  if (environment) set_environment(about, *environment, report.environment, *store, row_changes(K, *store));
+  about.closure_change = row_changes(K, *store);
+  if (environment) set_environment(about, *environment, report.environment, *store);
   FactorStoreWriter writer(file, about, key, store->tile(), repair.request.points);
   copy_points(*store, writer);
   copy_tiles(*store, writer, [&](Index a, Index b, Index columns, std::span<double> entries, std::span<double> errors) {

@@ -22,7 +22,7 @@ double bytes_of(const ViewFactorOptions& options, const FactorRequest& request);
 /// A store of the factors that are asked for: one that is there, or filled tile by tile, where an interrupted run
 /// stopped.  Where closure is asked for, the store as it was computed is finished first, and then replaced by one that
 /// is repaired, with the environment's column where the scene is open: each entry's error grows by its change.
-/// @return  the store, and what the computation says (`met`: of the errors as they are in the store)
+/// @return  the store, and what the computation says (`met`: of errors before a repair)
 struct KeptFactors {
   std::filesystem::path file;
   fem::ToleranceReport report;

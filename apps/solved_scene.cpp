@@ -60,11 +60,17 @@ std::vector<std::string> blind_sensors(const SolvedScene& solved) {
   return warnings;
 }
 
-/// What the solution shows to be odd.  Flux on black backs counts beyond the noise of the rays that found it.
+/// What the solution shows to be odd.
 std::vector<std::string> warnings_of(const SolvedScene& solved) {
-  const scene::Scene& scene = solved.scene;
-  const fem::RadiositySolution& solution = solved.solution;
   std::vector<std::string> warnings = blind_sensors(solved);
+  for (std::string& warning : energy_warnings(solved.scene, solved.solution)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+}  // namespace
+
+std::vector<std::string> energy_warnings(const scene::Scene& scene, const fem::RadiositySolution& solution) {
+  std::vector<std::string> warnings;
   const double emitted = scene.weigh(solution.energy.emitted), on_backs = scene.weigh(solution.energy.on_backs);
   if (on_backs - normal_95 * scene.weigh(solution.energy.on_backs_error) > noticeable_on_backs * emitted)
     warnings.push_back("black backs absorb " + core::format_percent(on_backs / emitted) +
@@ -76,8 +82,6 @@ std::vector<std::string> warnings_of(const SolvedScene& solved) {
         " of the emitted flux: do faces coincide or lie closer than elements are long?  See interflect check");
   return warnings;
 }
-
-}  // namespace
 
 std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, const fem::RadiositySettings& settings) {
   std::vector<std::string> warnings;

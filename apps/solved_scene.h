@@ -37,6 +37,9 @@ struct SolvedScene {
 };
 
 /// What a solution fell short of: the tolerance of its rows, that of the solver.
+/// What a solution's energy balance shows to be odd, in sentences: flux on black backs, beyond the noise of the rays that
+/// found it, and form factors and rays that disagree.
+std::vector<std::string> energy_warnings(const scene::Scene& scene, const fem::RadiositySolution& solution);
 std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, const fem::RadiositySettings& settings);
 
 /// "5 000 elements, 0.2 GB, about 40 s"

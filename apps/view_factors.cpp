@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "apps/commands.h"
+#include "apps/contacts.h"
 #include "apps/kept_factors.h"
 #include "apps/read_scene.h"
 #include "apps/view_of.h"
@@ -182,6 +183,7 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
   const bool talk = !common.json && !common.quiet;
   if (talk) std::printf("bounding box %s\n", box_text(request.geometry.scene).c_str());
   const auto rays = raycast::make_ray_caster("embree", request.geometry.scene);
+  warn_of_contacts(request.geometry.scene, *rays);
   const fem::MethodMaker make = [&](double relative) {
     fem::FormFactorContext context{request.geometry.scene, request.elements.seeing(), *rays, run.seed, relative,
                                    options.visibility_rays};

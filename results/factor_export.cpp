@@ -201,6 +201,7 @@ void write_factors_npz(const std::filesystem::path& file, const FactorElements& 
     npz.add("environment", elements.environment, {n});
     npz.add("environment_error", elements.environment_error, {n});
   }
+  if (!elements.closure_change.empty()) npz.add("closure_change", elements.closure_change, {n});
   add_points(npz, points, n);
   npz.keep();
 }

@@ -60,7 +60,7 @@ Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded,
   std::size_t width = 1, point_width = 1;
   for (const std::string& name : elements.name) width = std::max(width, name.size());
   for (const measure::SensorPoint& point : points) point_width = std::max(point_width, point.sensor.size());
-  constexpr std::uint64_t structure = 1 << 20, lists = 11 * sizeof(double);
+  constexpr std::uint64_t structure = 1 << 20, lists = 12 * sizeof(double);
   const std::uint64_t at_once =
       structure + elements.area.size() * (lists + width) + points.size() * (lists + point_width);
   return {at_once + padded * padded * (sizeof(double) + sizeof(float)) +
@@ -75,9 +75,9 @@ std::vector<double> read_doubles(const Hdf5File& file, const std::string& name, 
   return out;
 }
 
-/// Either list of it; empty where there is none.
-std::vector<double> read_environment(const Hdf5File& file, const std::string& name, std::uint64_t count) {
-  return file.has("environment") ? read_doubles(file, name, count) : std::vector<double>();
+/// Empty where there is none.
+std::vector<double> read_if_there(const Hdf5File& file, const std::string& name, std::uint64_t count) {
+  return file.has(name) ? read_doubles(file, name, count) : std::vector<double>();
 }
 
 std::vector<Vec3> read_points(const Hdf5File& file, const std::string& name, std::uint64_t count) {
@@ -138,6 +138,10 @@ Hdf5File FactorStoreWriter::begin(const std::filesystem::path& file, const Facto
     store.write("environment", {0}, {n}, elements.environment.data());
     store.write("environment_error", {0}, {n}, elements.environment_error.data());
   }
+  if (!elements.closure_change.empty()) {
+    store.make_doubles("closure_change", {n});
+    store.write("closure_change", {0}, {n}, elements.closure_change.data());
+  }
   point_group::make(store, points, n);
   store.flush();
   return store;
@@ -151,7 +155,8 @@ FactorStoreWriter::FactorStoreWriter(std::filesystem::path file, const FactorEle
     : file_(std::move(file)), partial_(partial_of(file_)), size_(elements.size()), area_(elements.area) {
   const std::size_t n = elements.area.size();
   if ((!elements.environment.empty() && elements.environment.size() != n) ||
-      elements.environment_error.size() != elements.environment.size() || elements.normal.size() != n ||
+      elements.environment_error.size() != elements.environment.size() ||
+      (!elements.closure_change.empty() && elements.closure_change.size() != n) || elements.normal.size() != n ||
       elements.centroid.size() != n || elements.name.size() != n || tile < 0)
     throw core::PreconditionError("FactorStoreWriter: one entry per element in each list, and a tile of 0 or more");
   if (std::error_code error; file_.filename().empty() || std::filesystem::is_directory(file_, error))
@@ -186,9 +191,10 @@ void FactorStoreWriter::go_on(const FactorElements& elements, const FactorStoreK
     throw core::InputError(partial_.string(),
                            "it was begun with other settings (remove it to begin anew, or repeat them to go on)");
   const std::uint64_t n = size_of(elements.size());
-  const bool same_environment = read_environment(*store_, "environment", n) == elements.environment &&
-                                read_environment(*store_, "environment_error", n) == elements.environment_error;
-  if (read_doubles(*store_, "area", n) != elements.area || store_->texts("name") != elements.name || !same_environment)
+  const bool same_repair = read_if_there(*store_, "environment", n) == elements.environment &&
+                           read_if_there(*store_, "environment_error", n) == elements.environment_error &&
+                           read_if_there(*store_, "closure_change", n) == elements.closure_change;
+  if (read_doubles(*store_, "area", n) != elements.area || store_->texts("name") != elements.name || !same_repair)
     throw core::InputError(partial_.string(), "its elements are others than those of this run");
   if (!same_points(point_group::points(*store_, n), points))
     throw core::InputError(partial_.string(), "it was begun with other sensors (remove it to begin anew)");
@@ -312,8 +318,9 @@ FactorStore::FactorStore(const std::filesystem::path& file) : store_(Hdf5File::o
   elements_.centroid = read_points(store_, "centroid", n);
   elements_.name = store_.texts("name");
   require_sizes(store_, "name", {n});
-  elements_.environment = read_environment(store_, "environment", n);
-  elements_.environment_error = read_environment(store_, "environment_error", n);
+  elements_.environment = read_if_there(store_, "environment", n);
+  elements_.environment_error = read_if_there(store_, "environment_error", n);
+  elements_.closure_change = read_if_there(store_, "closure_change", n);
   row_sum_ = read_doubles(store_, "row_sum", n);
   row_error_ = read_doubles(store_, "row_error", n);
   require_sizes(store_, "K", {n, n});
@@ -403,7 +410,7 @@ double factor_store_bytes(std::uint64_t elements, std::uint64_t points) {
   const auto n = static_cast<double>(elements),
              t = std::min(n, static_cast<double>(usual_tile(static_cast<Index>(elements))));
   const double across = elements > 0 ? std::ceil(n / t) : 0;
-  constexpr double per_pair = sizeof(double) + sizeof(float), lists = 11 * sizeof(double) + 65, structure = 1 << 20;
+  constexpr double per_pair = sizeof(double) + sizeof(float), lists = 12 * sizeof(double) + 65, structure = 1 << 20;
   return 0.5 * per_pair * across * (across + 1) * t * t + lists * n +
          static_cast<double>(point_group::bytes(points, elements)) + structure;
 }

@@ -12,13 +12,15 @@
 /// to.
 namespace interflect::results {
 
-/// The elements between which view factors are; all lists have the same length, the last two unless empty.
+/// The elements between which view factors are; all lists have the same length, the last three unless empty.
 struct FactorElements {
   std::vector<double> area;            ///< [m²]
   std::vector<Vec3> normal, centroid;  ///< unit; [m]
   std::vector<std::string> name;       ///< of the side of the surface: "NAME", "NAME/back"
   /// F_i,env, what reaches no element, and its errors [1]; empty: not known.
   std::vector<double> environment, environment_error;
+  /// sum_j |F'_ij - F_ij|, what a repair of row sums changed, which errors have grown by [1]; empty: none was made.
+  std::vector<double> closure_change;
 
   Index size() const { return static_cast<Index>(area.size()); }
 };

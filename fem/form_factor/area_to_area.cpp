@@ -167,13 +167,13 @@ PairCounts AreaToArea::exchange(const ElementBlock& rows, const ElementBlock& co
         ++counts.facing_away;
         continue;
       }
-      sink.add(i, j, estimate(i, j, sampling, counts));
+      sink.add(i, j, estimate(i, j, sampling, counts, run));
     }
   }
   return counts;
 }
 
-ExchangeEntry AreaToArea::estimate(Index i, Index j, Sampling& sampling, PairCounts& counts) const {
+ExchangeEntry AreaToArea::estimate(Index i, Index j, Sampling& sampling, PairCounts& counts, const Run& run) const {
   const bool adaptive = context_.samples == 0;
   const auto asked = (context_.samples + randomisations - 1) / randomisations;
   const auto last =
@@ -182,6 +182,7 @@ ExchangeEntry AreaToArea::estimate(Index i, Index j, Sampling& sampling, PairCou
   sampling.begin(i, j);
   for (std::uint32_t points = adaptive ? fewest_points : std::min(last, most_points);;
        points += std::min(points, most_points)) {
+    run.throw_if_stopped("form factors");
     sampling.extend(points);
     PairCounts of_entry;
     entry = sampling.entry(of_entry);

@@ -41,7 +41,7 @@ class AreaToArea final : public FormFactorMethod {
   static constexpr std::uint32_t randomisations = 16;
   class Sampling;
 
-  ExchangeEntry estimate(Index i, Index j, Sampling& sampling, PairCounts& counts) const;
+  ExchangeEntry estimate(Index i, Index j, Sampling& sampling, PairCounts& counts, const Run& run) const;
 
   FormFactorContext context_;
   std::uint64_t seed_;

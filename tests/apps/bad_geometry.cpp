@@ -241,5 +241,39 @@ TEST(BadGeometry, polygons_that_are_flat_but_for_rounding_do_not_hide_themselves
     }
 }
 
+/// Six faces, from (0, 0, 0) + at, as seen from outside or from inside.
+std::vector<std::vector<Vec3>> box_faces(const Vec3& at, const Vec3& size, bool inwards) {
+  std::vector<std::vector<Vec3>> faces;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      std::vector<Vec3> ring(4, at);
+      for (int k = 0; k < 4; ++k) {
+        Vec3& x = ring[std::size_t(k)];
+        if (upper) x[axis] += size[axis];
+        if (k == 1 || k == 2) x[(axis + 1) % 3] += size[(axis + 1) % 3];
+        if (k >= 2) x[(axis + 2) % 3] += size[(axis + 2) % 3];
+      }
+      if (upper == inwards) std::reverse(ring.begin(), ring.end());
+      faces.push_back(ring);
+    }
+  return faces;
+}
+
+// What a box stands on sees the box's inside where it is covered.  A plate of two faces covers nothing, and what stands
+// clear of the floor, either.
+TEST(BadGeometry, faces_that_lie_on_each_other_and_see_nothing_are_named) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::vector<std::vector<Vec3>>& bodies) {
+    std::vector<std::vector<Vec3>> faces = box_faces({0, 0, 0}, {3, 3, 3}, true);
+    faces.insert(faces.end(), bodies.begin(), bodies.end());
+    return interflect({"view-factors", folder.write("mesh.obj", obj_of(faces)), "-o", folder / "F.csv"}).err;
+  };
+  EXPECT_NE(said(box_faces({1, 1, 0}, {1, 1, 1}, false)).find(" lie on each other over 1 m2 at ("), std::string::npos);
+  EXPECT_EQ(said(box_faces({1, 1, .5}, {1, 1, 1}, false)), "");
+  EXPECT_EQ(said({{{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}}, {{1, 1, 1}, {1, 2, 1}, {2, 2, 1}, {2, 1, 1}}})
+                .find("lie on each other"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace interflect::test
