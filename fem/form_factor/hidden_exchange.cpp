@@ -50,6 +50,9 @@ const Rule& closed_rule_of(std::size_t corners) {
   return rules.of(corners);
 }
 
+/// The parts of a cell over what a corner stands for in that rule.
+double one_in_corner(std::size_t corners) { return corners == 4 ? 36 : 20; }
+
 /// From a point to what shapes the shadows there: the edges of the inner element and the blockers' [m].
 double distance_to_edges(const Vec3& x, std::span<const Vec3> inner, std::span<const PairShadow> shadows) {
   double distance = std::numeric_limits<double>::infinity();
@@ -230,7 +233,9 @@ class HiddenExchangeOf<Integrand>::Pair {
     const bool quad = cell.corners == 4;
     const double c = quad && !cell.parts.several() ? 0.5 : 2, q = ratio(cell);
     if (q > smooth)
-      return (cell.kinked ? 2 : 1) *
+      return (cell.uncut    ? one_in_corner(cell.corners)
+              : cell.kinked ? 2
+                            : 1) *
              std::max(std::min(1.0, c * q) * difference, Integrand::size(cell.by_border - cell.value));
     const int degree = std::max(0, degree_of(cell.rung, cell.corners) - integrand_.degrees);
     return c * q * difference + 0.2 * std::pow(q, degree + 1) * Integrand::size(cell.value);

@@ -45,9 +45,11 @@ using HiddenIntegral = HiddenIntegralOf<double>;
 /// cell.  Where several hide parts each, kinks remain between the lines, across which what is seen past all of them
 /// gains or loses corners, or has them on other shadows' edges.  A cell from whose middle, nodes, and from near whose
 /// corners and middles of sides it has as many on each edge is taken for smooth.  One with a kink has q = 1 and twice
-/// the error; it is cut along those lines that go through a corner of one blocker and an edge of another, and then in
-/// four (what is left are surfaces of second degree, through three edges).  The cell with the largest error goes first,
-/// until the errors sum to the tolerance.
+/// the error, and one that too many lines go through to be cut along them as many times as if all of it were as at a
+/// corner where it is not as inside: a narrow strip that a line would have cut off may touch that corner alone; it is
+/// cut along those lines that go through a corner of one blocker and an edge of another, and then in four (what is left
+/// are surfaces of second degree, through three edges).  The cell with the largest error goes first, until the errors
+/// sum to the tolerance.
 ///
 /// What is integrated is a number or a small matrix, whose error is that of its worst entry:
 ///
