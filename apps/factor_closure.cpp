@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "core/estimate.h"
 #include "fem/closure.h"
 #include "fem/environment_column.h"
 #include "fem/operator/dense_symmetric.h"
+#include "results/factor_pairs.h"
 
 namespace interflect::apps {
 namespace {
@@ -31,41 +31,20 @@ std::optional<fem::EnvironmentColumn> environment_of(const FactorRepair& repair,
   return column;
 }
 
-/// Rows of a store, some at a time: f(first, count, K, error).
-template <class F>
-void for_rows(const FactorStore& store, const F& f) {
-  const Index n = store.size();
-  std::vector<double> K, error;
-  for (Index first = 0; first < n; first += store.tile()) {
-    const Index count = std::min(store.tile(), n - first);
-    K.resize(static_cast<std::size_t>(count * n));
-    error.resize(K.size());
-    store.read_rows(first, count, K, error);
-    f(first, count, std::span<const double>(K), std::span<const double>(error));
-  }
-}
-
 /// With the stated errors as what entries may move by.
 void read_into(fem::DenseSymmetric& K, const FactorStore& store) {
-  for_rows(store, [&](Index first, Index count, std::span<const double> rows, std::span<const double> errors) {
-    const Index n = store.size();
-    for (Index a = first; a < first + count; ++a)
-      for (Index b = a; b < n; ++b) {
-        const auto at = static_cast<std::size_t>((a - first) * n + b);
-        if (rows[at] != 0 || errors[at] != 0) K.add(a, b, {rows[at], errors[at] / normal_95, 0});
-      }
+  results::for_pairs(store, [&](Index a, Index b, double entry, double error) {
+    K.add(a, b, {entry, error / normal_95, 0});
   });
 }
 
 /// sum_j |K'_ij - K_ij| / A_i
 std::vector<double> row_changes(const fem::DenseSymmetric& repaired, const FactorStore& store) {
   std::vector<double> changes(static_cast<std::size_t>(store.size()), 0);
-  for_rows(store, [&](Index first, Index count, std::span<const double> rows, std::span<const double>) {
-    const Index n = store.size();
-    for (Index a = first; a < first + count; ++a)
-      for (Index b = 0; b < n; ++b)
-        changes[static_cast<std::size_t>(a)] +=
-            std::abs(repaired.entry(a, b) - rows[static_cast<std::size_t>((a - first) * n + b)]);
+  results::for_pairs(store, [&](Index a, Index b, double entry, double) {
+    const double change = std::abs(repaired.entry(a, b) - entry);
+    changes[static_cast<std::size_t>(a)] += change;
+    if (a != b) changes[static_cast<std::size_t>(b)] += change;
   });
   for (std::size_t a = 0; a < changes.size(); ++a) changes[a] /= store.elements().area[a];
   return changes;

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
-#include "results/factor_store.h"
+#include "results/factor_pairs.h"
 
 namespace interflect::apps {
 namespace {
@@ -32,18 +32,7 @@ auto factors_from(const std::filesystem::path& file) {
                                           "--element-size of that run, and the same scene, expected",
                                           store.size(), count));
     store.require_geometry(results::geometry_digest(scene, elements));
-    const Index n = store.size(), height = store.tile();
-    std::vector<double> K(static_cast<std::size_t>(height * n)), error(K.size());
-    for (Index first = 0; first < n; first += height) {
-      const Index rows = std::min(height, n - first);
-      const auto numbers = static_cast<std::size_t>(rows * n);
-      store.read_rows(first, rows, {K.data(), numbers}, {error.data(), numbers});
-      for (Index a = 0; a < rows; ++a)
-        for (Index b = first + a; b < n; ++b) {
-          const auto at = static_cast<std::size_t>(a * n + b);
-          if (K[at] != 0 || error[at] != 0) sink.add(first + a, b, {K[at], 0, error[at]});
-        }
-    }
+    results::for_pairs(store, [&](Index a, Index b, double K, double error) { sink.add(a, b, {K, 0, error}); });
   };
 }
 
