@@ -9,42 +9,20 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "results/atomic_file.h"
+#include "results/factor_store_layout.h"
 
 namespace interflect::results {
 
 namespace {
 
-using Sizes = Hdf5File::Sizes;
+using namespace store_layout;
 
 std::filesystem::path partial_of(const std::filesystem::path& file) { return file.string() + ".partial"; }
-
-constexpr const char* format_name = "interflect/view-factors/1";
-
-std::uint64_t size_of(Index count) { return static_cast<std::uint64_t>(count); }
 
 /// The least float that is not below x, so that a bound stays one.
 float rounded_up(double x) {
   const float nearest = static_cast<float>(x);
   return static_cast<double>(nearest) < x ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
-}
-
-void require_store(const Hdf5File& file) {
-  if (!file.has("format")) throw core::InputError(file.path().string(), "this HDF5 file holds no view factors");
-  if (const std::string format = file.note("format"); format != format_name)
-    throw core::InputError(file.path().string(), std::string("'") + format_name + "' is expected, not '" +
-                                                     core::single_line(format.substr(0, 60)) + "'");
-}
-
-void require_sizes(const Hdf5File& file, const std::string& name, const Sizes& sizes) {
-  if (file.sizes_of(name) != sizes)
-    throw core::InputError(file.path().string(), "'" + name + "' does not have the size of the rest");
-}
-
-void require_digest(const Hdf5File& file, const std::string& stored, const std::string& expected) {
-  if (stored != expected)
-    throw core::InputError(file.path().string(), "its view factors are of another geometry (digest " +
-                                                     core::single_line(stored.substr(0, 40)) + ", not " + expected +
-                                                     ")");
 }
 
 std::vector<double> flat(const std::vector<Vec3>& points) {
@@ -66,51 +44,6 @@ Hdf5File::Room room_for(const FactorElements& elements, std::uint64_t padded,
   return {at_once + padded * padded * (sizeof(double) + sizeof(float)) +
               point_group::bytes(points.size(), elements.area.size()),
           at_once};
-}
-
-std::vector<double> read_doubles(const Hdf5File& file, const std::string& name, std::uint64_t count) {
-  require_sizes(file, name, {count});
-  std::vector<double> out(count);
-  file.read(name, {0}, {count}, out.data());
-  return out;
-}
-
-/// Empty where there is none.
-std::vector<double> read_if_there(const Hdf5File& file, const std::string& name, std::uint64_t count) {
-  return file.has(name) ? read_doubles(file, name, count) : std::vector<double>();
-}
-
-std::vector<Vec3> read_points(const Hdf5File& file, const std::string& name, std::uint64_t count) {
-  require_sizes(file, name, {count, 3});
-  std::vector<double> numbers(3 * count);
-  file.read(name, {0, 0}, {count, 3}, numbers.data());
-  std::vector<Vec3> out(count);
-  for (std::size_t i = 0; i < count; ++i) out[i] = Vec3(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
-  return out;
-}
-
-/// Number of elements, which the file is large enough for.
-std::uint64_t element_count(const Hdf5File& file) {
-  const Sizes sizes = file.sizes_of("area");
-  std::error_code error;
-  if (sizes.size() != 1 || sizes[0] > std::filesystem::file_size(file.path(), error) / sizeof(double))
-    throw DamagedFile(file.path().string(), "'area' promises more than the file holds");
-  return sizes[0];
-}
-
-Index tile_size(const Hdf5File& file, std::uint64_t elements) {
-  const std::uint64_t tile = file.count("tile");
-  if (tile == 0 || tile > std::max<std::uint64_t>(elements, 1))
-    throw core::InputError(file.path().string(), "'tile' is no size of a tile");
-  return static_cast<Index>(tile);
-}
-
-std::vector<std::uint8_t> read_done(const Hdf5File& file, Index across) {
-  const Sizes sizes{size_of(across), size_of(across)};
-  require_sizes(file, "tile_done", sizes);
-  std::vector<std::uint8_t> done(sizes[0] * sizes[1]);
-  file.read("tile_done", {0, 0}, sizes, done.data());
-  return done;
 }
 
 }  // namespace
@@ -307,97 +240,6 @@ void FactorStoreWriter::finish() {
   store_->flush();
   store_.reset();
   keep_as(partial_, file_);
-}
-
-FactorStore::FactorStore(const std::filesystem::path& file) : store_(Hdf5File::open(file, Hdf5File::Access::read)) {
-  require_store(store_);
-  key_ = {store_.note("digest"), store_.note("settings")};
-  const std::uint64_t n = element_count(store_);
-  elements_.area = read_doubles(store_, "area", n);
-  elements_.normal = read_points(store_, "normal", n);
-  elements_.centroid = read_points(store_, "centroid", n);
-  elements_.name = store_.texts("name");
-  require_sizes(store_, "name", {n});
-  elements_.environment = read_if_there(store_, "environment", n);
-  elements_.environment_error = read_if_there(store_, "environment_error", n);
-  elements_.closure_change = read_if_there(store_, "closure_change", n);
-  row_sum_ = read_doubles(store_, "row_sum", n);
-  row_error_ = read_doubles(store_, "row_error", n);
-  require_sizes(store_, "K", {n, n});
-  require_sizes(store_, "K_error", {n, n});
-  tile_ = tile_size(store_, n);
-  const Index across = (size() + tile_ - 1) / tile_;
-  const std::vector<std::uint8_t> done = read_done(store_, across);
-  for (Index I = 0; I < across; ++I)
-    for (Index J = I; J < across; ++J)
-      if (done[size_of(I * across + J)] == 0)
-        throw core::InputError(file.string(), "it is not finished: the run that computes it can be repeated to go on");
-  points_ = point_group::points(store_, n);
-}
-
-void FactorStore::require_geometry(const std::string& digest) const { require_digest(store_, key_.digest, digest); }
-
-/// Rows first .. first + count, all within the tiles I: the tiles to the right as they lie, those above the diagonal
-/// turned.
-void FactorStore::read_tile_rows(Index I, Index first, Index count, double* K, double* error) const {
-  const std::size_t n = size_of(size());
-  std::vector<double> part;
-  std::vector<float> part_error;
-  for (Index j0 = 0; j0 < size(); j0 += tile_) {
-    const Index columns = std::min(tile_, size() - j0);
-    const bool turned = j0 < I * tile_;
-    const Sizes from = turned ? Sizes{size_of(j0), size_of(first)} : Sizes{size_of(first), size_of(j0)};
-    const Sizes sizes = turned ? Sizes{size_of(columns), size_of(count)} : Sizes{size_of(count), size_of(columns)};
-    part.resize(sizes[0] * sizes[1]);
-    part_error.resize(part.size());
-    store_.read("K", from, sizes, part.data());
-    store_.read("K_error", from, sizes, part_error.data());
-    for (std::size_t a = 0; a < size_of(count); ++a)
-      for (std::size_t b = 0; b < size_of(columns); ++b) {
-        const std::size_t k = turned ? b * sizes[1] + a : a * sizes[1] + b;
-        K[a * n + size_of(j0) + b] = part[k];
-        error[a * n + size_of(j0) + b] = static_cast<double>(part_error[k]);
-      }
-  }
-}
-
-void FactorStore::read_rows(Index first, Index count, std::span<double> K, std::span<double> error) const {
-  if (first < 0 || count < 0 || first + count > size() || K.size() != size_of(count) * size_of(size()) ||
-      error.size() != K.size())
-    throw core::PreconditionError("FactorStore: rows that are there, and space for them");
-  for (Index i = first; i < first + count;) {
-    const Index I = i / tile_, end = std::min(first + count, (I + 1) * tile_);
-    const std::size_t at = size_of(i - first) * size_of(size());
-    read_tile_rows(I, i, end - i, K.data() + at, error.data() + at);
-    i = end;
-  }
-}
-
-FactorRows FactorStore::rows() const {
-  struct Held {
-    Index tile = -1;
-    std::vector<double> K, error;
-  };
-  return [this, held = std::make_shared<Held>()](Index i, std::span<double> F, std::span<double> error) {
-    const std::size_t n = size_of(size());
-    if (const Index I = i / tile_; held->tile != I) {
-      const Index count = std::min(tile_, size() - I * tile_);
-      held->tile = -1;  // should reading fail
-      held->K.resize(size_of(count) * n);
-      held->error.resize(held->K.size());
-      read_rows(I * tile_, count, held->K, held->error);
-      held->tile = I;
-    }
-    const std::size_t at = size_of(i % tile_) * n;
-    const double area = elements_.area[size_of(i)];
-    for (std::size_t j = 0; j < n; ++j) F[j] = held->K[at + j] / area, error[j] = held->error[at + j] / area;
-  };
-}
-
-PointFactors FactorStore::point_factors() const {
-  return {points_, [this](Index s, std::span<double> F, std::span<double> error) {
-            point_group::read_row(store_, s, F, error);
-          }};
 }
 
 double begun_bytes(const std::filesystem::path& file) {
