@@ -19,6 +19,9 @@ constexpr const char* example_scene = "data/scenes/cornell_box.json";
 CLI::Validator within(double low, double high) {
   return {[=](std::string& text) { return outside(text, low, high); }, core::format("in [%g, %g]", low, high)};
 }
+CLI::Validator count(double most) {
+  return {[=](std::string& text) { return to_count(text, most); }, core::format("up to %g", most)};
+}
 CLI::Validator memory() { return {to_bytes, "SIZE"}; }
 CLI::Validator length() { return {no_length, "METRES"}; }
 CLI::Validator fraction() { return {to_fraction, "PART"}; }
@@ -42,21 +45,52 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
 
 constexpr const char* when_no_rows = "none: --quadrature-tolerance";
 
-/// How much a form-factor method does; `when_0` is what a tolerance of 0 means, where that is the default.
-void add_effort(CLI::App& command, double& row_tolerance, std::uint64_t& samples, int& resolution,
-                const std::string& when_0 = "") {
+/// Settings that change nothing are mistakes: of the method, or of what one expects of it.
+void require_heeded(const CLI::Option& option, const std::string& method, fem::Setting setting) {
+  if (!option.empty() && fem::setting_of(method) != setting)
+    throw CLI::ValidationError(option.get_name(), "form factors by " + method + " have none: --form-factors NAME");
+}
+
+/// Where the options of how much a form-factor method does go.
+struct EffortOptions {
+  const std::string& method;
+  double& row_tolerance;
+  std::uint64_t& samples;
+  int& resolution;
+  int& visibility_rays;
+};
+
+/// @param when_0  what a tolerance of 0 means, where that is the default
+void add_effort(CLI::App& command, const EffortOptions& options, const std::string& when_0 = "") {
   CLI::Option* tolerance =
-      command.add_option("--tolerance", row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
+      command.add_option("--tolerance", options.row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
           ->check(within(1e-9, 0.5))
           ->capture_default_str();
   if (!when_0.empty()) tolerance->default_str(when_0);
-  command
-      .add_option("--samples", samples, "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
-      ->check(within(0, 1e15))
-      ->capture_default_str();
-  command.add_option("--resolution", resolution, "Cells across a hemicube or a plane")
-      ->check(CLI::Range(2, 8192))
-      ->capture_default_str();
+  const CLI::Option* samples =
+      command
+          .add_option("--samples", options.samples,
+                      "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
+          ->transform(count(1e15))
+          ->capture_default_str();
+  const CLI::Option* cells =
+      command.add_option("--resolution", options.resolution, "Cells across a hemicube or a plane")
+          ->check(CLI::Range(2, 8192))
+          ->capture_default_str();
+  const CLI::Option* rays = command
+                                .add_option("--visibility-rays", options.visibility_rays,
+                                            "Of gauss-lambert and hybrid: for a pair that something may hide")
+                                ->check(CLI::Range(4, 65536))
+                                ->capture_default_str();
+  command.parse_complete_callback([samples, cells, rays, &method = options.method] {
+    require_heeded(*samples, method, fem::Setting::samples);
+    require_heeded(*cells, method, fem::Setting::resolution);
+    require_heeded(*rays, method, fem::Setting::rays);
+  });
+}
+
+EffortOptions effort_of(fem::RadiositySettings& s) {
+  return {s.form_factors, s.row_tolerance, s.samples, s.resolution, s.visibility_rays};
 }
 
 void add_closure(CLI::App& command, std::string& closure) {
@@ -106,9 +140,6 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
   command.add_option(
       "--factors", options.factors,
       "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
-  command.add_option("--visibility-rays", s.visibility_rays, "Rays for a pair of elements that something may hide")
-      ->check(CLI::Range(4, 65536))
-      ->capture_default_str();
   command.add_option("--quadrature-tolerance", s.quadrature_tolerance, "Relative error of an unoccluded form factor")
       ->check(within(1e-14, 0.5))
       ->capture_default_str();
@@ -127,7 +158,7 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
                   "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
       ->check(within(0.0, 1.0))
       ->capture_default_str();
-  add_effort(command, s.row_tolerance, s.samples, s.resolution, when_no_rows);
+  add_effort(command, effort_of(s), when_no_rows);
   command.add_flag_callback(
       "--forecast",
       [&options, out] {
@@ -223,7 +254,8 @@ void add_view_factors(CLI::App& app, Command& chosen) {
         out->required(false);
       },
       "Say what it would need, and stop: no --out is needed");
-  add_effort(*command, options->tolerance, options->samples, options->resolution);
+  add_effort(*command, {options->form_factors, options->tolerance, options->samples, options->resolution,
+                        options->visibility_rays});
   command->add_option("--form-factors", options->form_factors, "Form-factor method")
       ->check(CLI::IsMember(fem::form_factor_names()))
       ->capture_default_str();
@@ -288,8 +320,7 @@ void add_exchange(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   add_no_pictures(*command, options->pictures);
   add_closure(*command, options->settings.closure);
-  add_effort(*command, options->settings.row_tolerance, options->settings.samples, options->settings.resolution,
-             when_no_rows);
+  add_effort(*command, effort_of(options->settings), when_no_rows);
 }
 
 void add_info(CLI::App& app, Command& chosen) {

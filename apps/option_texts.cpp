@@ -36,6 +36,15 @@ std::string outside(const std::string& text, double low, double high) {
   return fine ? std::string() : core::format("Value %s not in range %g to %g", text.c_str(), low, high);
 }
 
+std::string to_count(std::string& text, double most) {
+  const auto number = quantity_of(text);
+  const bool fine = number && number->unit.empty() && number->value >= 0 && number->value <= most &&
+                    number->value == std::floor(number->value);
+  if (!fine) return core::format("'%s' is not a whole number from 0 to %g", text.c_str(), most);
+  text = core::format("%.0f", number->value);
+  return {};
+}
+
 std::string to_bytes(std::string& text) {
   auto size = quantity_of(text);
   if (size) size->unit.erase(0, size->unit.find_first_not_of(' '));

@@ -8,6 +8,9 @@ namespace interflect::apps {
 /// A number from `low` to `high`: not nan, and no "-5" that an unsigned option would take for a large one.
 std::string outside(const std::string& text, double low, double high);
 
+/// A whole number from 0 to `most` from "1000000" or "1e6", in digits in place of the text.
+std::string to_count(std::string& text, double most);
+
 /// Bytes from "4GB", "512 MB", "1e9", powers of ten as on a label, in place of the text.
 std::string to_bytes(std::string& text);
 

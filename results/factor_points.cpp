@@ -105,7 +105,7 @@ void write_sums(Hdf5File& store, std::uint64_t points, std::uint64_t elements) {
   for (std::size_t s = 0; s < points; ++s) {
     read_row(store, static_cast<Index>(s), F, error);
     sum[s] = std::accumulate(F.begin(), F.end(), 0.0);
-    bound[s] = std::accumulate(error.begin(), error.end(), 0.0);
+    bound[s] = std::min(std::accumulate(error.begin(), error.end(), 0.0), 1 + sum[s]);  // true entries add up to <= 1
   }
   store.write("sensors/row_sum", {0}, {points}, sum.data());
   store.write("sensors/row_error", {0}, {points}, bound.data());

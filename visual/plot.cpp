@@ -51,6 +51,12 @@ class Canvas {
       for (int i = static_cast<int>(x - radius) - 1; i <= static_cast<int>(x + radius) + 1; ++i)
         cover(i, j, std::clamp(radius + 0.5 - std::hypot(i - x, j - y), 0.0, 1.0), colour);
   }
+  void ring(double x, double y, double radius, double width, Colour colour) {
+    const double reach = radius + width;
+    for (int j = static_cast<int>(y - reach); j <= static_cast<int>(y + reach) + 1; ++j)
+      for (int i = static_cast<int>(x - reach); i <= static_cast<int>(x + reach) + 1; ++i)
+        cover(i, j, std::clamp(width + 0.5 - std::abs(std::hypot(i - x, j - y) - radius), 0.0, 1.0), colour);
+  }
   void line(double x0, double y0, double x1, double y1, double radius, Colour colour) {
     const int steps = 1 + static_cast<int>(2 * std::hypot(x1 - x0, y1 - y0));
     for (int k = 0; k <= steps; ++k) dot(x0 + (x1 - x0) * k / steps, y0 + (y1 - y0) * k / steps, radius, colour);
@@ -98,14 +104,23 @@ void draw_axes(Canvas& canvas, const Frame& frame, const Plot& plot) {
   canvas.text(plot.x_label, (left + width - right) / 2, height - 14, 13, true);
 }
 
-void draw_curve(Canvas& canvas, const Frame& frame, const Plot::Curve& curve, Colour colour) {
+/// Dots and rings by turns: neighbours of a list may lie on each other, and both show then.
+void draw_marker(Canvas& canvas, double x, double y, std::size_t curve, Colour colour) {
+  if (curve % 2 == 0)
+    canvas.dot(x, y, 4, colour);
+  else
+    canvas.ring(x, y, 6, 1, colour);
+}
+
+void draw_curve(Canvas& canvas, const Frame& frame, const Plot& plot, std::size_t which, Colour colour) {
+  const Plot::Curve& curve = plot.curves[which];
   bool started = false;
   double from_x = 0, from_y = 0;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     if (!drawable(curve.x[k], curve.y[k])) continue;
     const double x = frame.column(curve.x[k]), y = frame.row(curve.y[k]);
     if (started) canvas.line(from_x, from_y, x, y, 0.8, colour);
-    canvas.dot(x, y, 4, colour);
+    draw_marker(canvas, x, y, which, colour);
     from_x = x, from_y = y, started = true;
   }
 }
@@ -119,9 +134,9 @@ core::Image plot_picture(const Plot& plot) {
   draw_axes(canvas, frame, plot);
   for (std::size_t k = 0; k < plot.curves.size(); ++k) {
     const Colour colour = palette[k % palette.size()];
-    draw_curve(canvas, frame, plot.curves[k], colour);
+    draw_curve(canvas, frame, plot, k, colour);
     const int base = top + 20 + 22 * static_cast<int>(k);
-    canvas.dot(width - right + 20, base - 5, 4, colour);
+    draw_marker(canvas, width - right + 20, base - 5, k, colour);
     canvas.text(plot.curves[k].name, width - right + 34, base, 14);
   }
   return canvas.take();

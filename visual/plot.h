@@ -17,7 +17,8 @@ struct Plot {
   std::vector<Curve> curves;
 };
 
-/// 900 x 620 pixels, sRGB in [0, 1]: a frame with its decades, a line with dots a curve, and their names at the right.
+/// 900 x 620 pixels, sRGB in [0, 1]: a frame with its decades, a line a curve, with dots or, by turns, rings, and
+/// their names at the right.
 /// Points that are not positive and finite are left out.
 core::Image plot_picture(const Plot& plot);
 

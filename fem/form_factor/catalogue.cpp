@@ -18,6 +18,7 @@ namespace {
 struct Entry {
   const char* name;
   std::unique_ptr<FormFactorMethod> (*make)(const FormFactorContext&);
+  Setting setting;
 };
 
 template <class Method>
@@ -29,16 +30,25 @@ std::unique_ptr<FormFactorMethod> make_analytic(const FormFactorContext& context
   return context.order == 0 ? make<Analytic>(context) : make<AnalyticMoments>(context);
 }
 
-constexpr Entry catalogue[] = {{"analytic", make_analytic},
-                               {"hybrid", make<Hybrid>},
-                               {"gauss-lambert", make<GaussLambert>},
-                               {"area-to-area", make<AreaToArea>},
-                               {"hemisphere-rays", make<HemisphereRays>},
-                               {"global-lines", make<GlobalLines>},
-                               {"hemicube", make<ExactHemicube>},
-                               {"hemicube-midpoint", make<MidpointHemicube>},
-                               {"hemicube-max", make<MaxHemicube>},
-                               {"single-plane", make<SinglePlane>}};
+constexpr Entry catalogue[] = {{"analytic", make_analytic, Setting::tolerance},
+                               {"hybrid", make<Hybrid>, Setting::rays},
+                               {"gauss-lambert", make<GaussLambert>, Setting::rays},
+                               {"area-to-area", make<AreaToArea>, Setting::samples},
+                               {"hemisphere-rays", make<HemisphereRays>, Setting::samples},
+                               {"global-lines", make<GlobalLines>, Setting::samples},
+                               {"hemicube", make<ExactHemicube>, Setting::resolution},
+                               {"hemicube-midpoint", make<MidpointHemicube>, Setting::resolution},
+                               {"hemicube-max", make<MaxHemicube>, Setting::resolution},
+                               {"single-plane", make<SinglePlane>, Setting::resolution}};
+
+const Entry& entry_of(const std::string& name) {
+  std::string known;
+  for (const Entry& entry : catalogue) {
+    if (name == entry.name) return entry;
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  throw core::InputError("form factors by '" + name + "'", "one of " + known + " expected");
+}
 
 }  // namespace
 
@@ -55,19 +65,13 @@ PairCounts& PairCounts::operator+=(const PairCounts& o) {
 }
 
 std::unique_ptr<FormFactorMethod> make_form_factor_method(const std::string& name, const FormFactorContext& context) {
-  std::string known;
-  for (const Entry& entry : catalogue) {
-    if (name == entry.name) {
-      auto method = entry.make(context);
-      if (method->highest_order() < context.order)
-        throw core::InputError("form factors by '" + name + "'",
-                               "they are of constants: --order 0, or analytic, expected");
-      return method;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw core::InputError("form factors by '" + name + "'", "one of " + known + " expected");
+  auto method = entry_of(name).make(context);
+  if (method->highest_order() < context.order)
+    throw core::InputError("form factors by '" + name + "'", "they are of constants: --order 0, or analytic, expected");
+  return method;
 }
+
+Setting setting_of(const std::string& name) { return entry_of(name).setting; }
 
 std::vector<std::string> form_factor_names() {
   std::vector<std::string> names;

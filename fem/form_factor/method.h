@@ -86,4 +86,9 @@ struct FormFactorContext {
 std::unique_ptr<FormFactorMethod> make_form_factor_method(const std::string& name, const FormFactorContext& context);
 std::vector<std::string> form_factor_names();
 
+/// What a method's accuracy depends on beside its tolerance.
+enum class Setting : std::uint8_t { tolerance, rays, samples, resolution };
+/// @throws core::InputError with the names known
+Setting setting_of(const std::string& name);
+
 }  // namespace interflect::fem

@@ -50,6 +50,14 @@ TEST(BadInput, no_such_command_or_option) {
     expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--seed", seed}, "--seed");
 }
 
+TEST(BadInput, settings_that_the_method_has_not) {
+  const std::string scene = shipped_scene("cube");
+  expect_refused({"view-factors", scene, "-o", "F.csv", "--samples", "1e4"}, "form factors by analytic have none");
+  expect_refused({"exchange", scene, "-o", "x", "--resolution", "64"}, "--resolution");
+  expect_refused({"solve", scene, "-o", "x", "--order", "1", "--visibility-rays", "64"}, "--visibility-rays");
+  expect_refused({"solve", scene, "-o", "x", "--samples", "100"}, "gauss-lambert");
+}
+
 TEST(BadInput, numbers_that_are_none_or_out_of_range) {
   const std::string scene = shipped_scene("cube");
   for (const char* tolerance : {"nan", "-1", "0", "1e-3x"})
@@ -57,6 +65,9 @@ TEST(BadInput, numbers_that_are_none_or_out_of_range) {
   expect_refused({"solve", scene, "-o", "x", "--quadrature-tolerance", "nan"}, "--quadrature-tolerance");
   expect_refused({"exchange", scene, "-o", "x", "--environment", "nan"}, "--environment");
   expect_refused({"view-factors", scene, "-o", "F.csv", "--samples", "-5"}, "--samples");
+  for (const char* samples : {"1.5", "1e16", "many"})
+    expect_refused({"view-factors", scene, "-o", "F.csv", "--form-factors", "global-lines", "--samples", samples},
+                   "is not a whole number");
 }
 
 TEST(BadInput, malformed_and_truncated_json) {

@@ -8,8 +8,6 @@
 namespace interflect::test {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// The program's progress has told of at least 1 % of a stage.  Stages go round after round over all pixels or
 /// measurements, so that each has a hundredth of its samples then, but for a factor of two.
 std::function<bool(const std::string&)> part_of(const std::string& stage) {

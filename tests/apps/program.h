@@ -33,4 +33,6 @@ struct Circumstances {
 /// Runs `interflect ARGUMENTS`.
 Outcome interflect(const std::vector<std::string>& arguments, const Circumstances& circumstances = {});
 
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 }  // namespace interflect::test

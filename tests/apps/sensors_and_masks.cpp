@@ -9,8 +9,6 @@
 namespace interflect::test {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 struct Row {
   double x, y, blocked;
 };

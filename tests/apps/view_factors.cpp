@@ -12,8 +12,6 @@
 namespace interflect::test {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 // The unit cube's walls, seen from inside.
 const std::string cube =
     "v 0 0 0\nv 0 0 1\nv 0 1 0\nv 0 1 1\nv 1 0 0\nv 1 0 1\nv 1 1 0\nv 1 1 1\n"
@@ -82,9 +80,13 @@ TEST(ViewFactors, are_repaired_on_request_with_the_environment_as_a_column) {
     for (const char* method : {"analytic", "hemisphere-rays"}) {
       const bool exact = std::string(method) == "analytic";
       const std::string out = folder / (std::string(closure) + method + ".csv");
-      const std::vector<std::string> command{
-          "view-factors",   open,   "-o",        out,    "--closure",   closure,
-          "--form-factors", method, "--samples", "4096", "--tolerance", exact ? "1e-7" : "0.1"};
+      const auto command_of = [&](const std::string& mesh, const std::string& to, const char* tolerance) {
+        std::vector<std::string> words{"view-factors",   mesh,   "-o",          to,       "--closure", closure,
+                                       "--form-factors", method, "--tolerance", tolerance};
+        if (!exact) words.insert(words.end(), {"--samples", "4096"});
+        return words;
+      };
+      const std::vector<std::string> command = command_of(open, out, exact ? "1e-7" : "0.1");
       const Outcome run = interflect(command);
       ASSERT_EQ(run.status, 0) << run.err;
       EXPECT_TRUE(contains(run.out, " of what leaves reaches no element")) << run.out;
@@ -98,10 +100,7 @@ TEST(ViewFactors, are_repaired_on_request_with_the_environment_as_a_column) {
       const Outcome again = interflect(command);
       EXPECT_TRUE(contains(again.out, "has them already"));
       EXPECT_EQ(again.status, 0) << "the tolerance is asked of what was computed";
-      EXPECT_EQ(interflect({"view-factors", closed, "-o", folder / "C.csv", "--closure", closure, "--form-factors",
-                            method, "--samples", "4096", "--tolerance", "0.1"})
-                    .status,
-                0);
+      EXPECT_EQ(interflect(command_of(closed, folder / "C.csv", "0.1")).status, 0);
       for (const auto& [i, sum] : rows_of(read_file(folder / "C.csv")).sum) EXPECT_NEAR(sum, 1, 1e-12) << i;
       EXPECT_FALSE(contains(read_file(folder / "C.csv"), "environment")) << "it is closed";
     }
