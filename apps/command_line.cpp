@@ -113,9 +113,9 @@ void add_no_pictures(CLI::App& command, bool& pictures) {
       "--no-pictures", [&pictures] { pictures = false; }, "Write no PNG");
 }
 
-void add_radiosity(CLI::App& command, SolveOptions& options) {
+/// @param out  where the results go
+void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
   fem::RadiositySettings& s = options.settings;
-  CLI::Option* out = command.add_option("-o,--out", options.out, "Folder for the results")->required();
   command
       .add_option(
           "--element-size", s.element_size,
@@ -137,6 +137,26 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
           "Degree of the polynomials on an element; from 1 on with form factors by analytic")
       ->check(CLI::Range(0, 3))
       ->default_str("0");
+  const auto polynomials = [&s, method] {
+    s.order = std::max(s.order, 1);
+    if (method->empty()) s.form_factors = "analytic";
+  };
+  command
+      .add_option_function<double>(
+          "--target-error",
+          [&options, polynomials](double target) {
+            options.target_error = target;
+            polynomials();
+          },
+          "Make elements for a goal, pass after pass, until its error is estimated below this part of it, such as 1%")
+      ->transform(fraction());
+  command.add_option_function<std::string>(
+      "--goal",
+      [&options, polynomials](const std::string& goal) {
+        options.goal = goal;
+        polynomials();
+      },
+      "Whose error counts: a sensor, a surface, or camera:NAME; default: all sensors");
   command.add_option(
       "--factors", options.factors,
       "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
@@ -166,7 +186,10 @@ void add_radiosity(CLI::App& command, SolveOptions& options) {
         out->required(false);
       },
       "Say what it would need, and stop: no --out is needed");
-  add_no_pictures(command, options.pictures);
+}
+
+CLI::Option* add_folder(CLI::App& command, std::filesystem::path& out) {
+  return command.add_option("-o,--out", out, "Folder for the results")->required();
 }
 
 /// A subcommand with an example; `run` is called with the options that parsing filled.
@@ -188,7 +211,8 @@ void add_solve(CLI::App& app, Command& chosen) {
       app, "solve", "Radiosity of a scene: tables, fields for ParaView, pictures",
       core::format("interflect solve %s -o out/cornell --element-size 0.03", example_scene), solve, options, chosen);
   add_scene(*command, options->scene);
-  add_radiosity(*command, *options);
+  add_radiosity(*command, *options, add_folder(*command, options->out));
+  add_no_pictures(*command, options->pictures);
 }
 
 void add_validate(CLI::App& app, Command& chosen) {
@@ -197,7 +221,8 @@ void add_validate(CLI::App& app, Command& chosen) {
       app, "validate", "Solve, trace the same measurements by Monte Carlo, and certify how well they agree",
       core::format("interflect validate %s -o out/cornell --accuracy 0.5%%", example_scene), validate, options, chosen);
   add_scene(*command, options->solve.scene);
-  add_radiosity(*command, options->solve);
+  add_radiosity(*command, options->solve, add_folder(*command, options->solve.out));
+  add_no_pictures(*command, options->solve.pictures);
   command->add_option("--accuracy", options->accuracy, "Relative standard error of each traced value, such as 1%")
       ->transform(fraction())
       ->default_str("1%");
@@ -207,6 +232,27 @@ void add_validate(CLI::App& app, Command& chosen) {
   command->add_flag("--all", options->all_elements, "Judge every element");
   command->add_option("--picture-spp", options->picture_samples, "Samples per pixel of the traced picture")
       ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+}
+
+void add_render(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = add_command<RenderOptions>(
+      app, "render", "A picture by radiosity, with an error for each pixel",
+      core::format("interflect render %s --order 1 --element-size 0.3 --gather -o cornell.exr", example_scene), render,
+      options, chosen);
+  add_scene(*command, options->solve.scene);
+  add_radiosity(
+      *command, options->solve,
+      command
+          ->add_option("-o,--out", options->image,
+                       "Picture to write: .exr (radiance, with errors) or .png; the other is written beside it")
+          ->required());
+  command->add_option("--camera", options->camera, "Camera of the scene; default: its first");
+  command->add_flag("--gather", options->gather,
+                    "Pixels are the iterated solution, E + rho T B_h: shadows as they are, not as elements have them");
+  command->add_option("--rays", options->rays, "A pixel, rounded to a square")
+      ->check(CLI::Range(1, 4096))
       ->capture_default_str();
 }
 
@@ -379,6 +425,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_common(app, command.common);
   add_solve(app, command);
   add_validate(app, command);
+  add_render(app, command);
   add_trace(app, command);
   add_view_factors(app, command);
   add_compare_form_factors(app, command);

@@ -23,6 +23,8 @@ struct CommonOptions {
 struct SolveOptions {
   std::filesystem::path scene, out;
   fem::RadiositySettings settings;
+  std::string goal;               ///< what elements are made for, where there is a target or a name (goals.h)
+  double target_error = 0;        ///< of the goal over its value; 0: elements are not made for it
   std::filesystem::path factors;  ///< an .h5 of view factors to use; empty: they are computed
   bool forecast_only = false;
   bool pictures = true;
@@ -34,6 +36,14 @@ struct ValidateOptions {
   bool all_elements = false;
   int elements = 500;        ///< judged, when not all
   int picture_samples = 64;  ///< per pixel of the traced picture
+};
+
+struct RenderOptions {
+  SolveOptions solve;
+  std::filesystem::path image;
+  std::string camera;  ///< empty: the scene's first
+  bool gather = false;
+  int rays = 4;  ///< a pixel
 };
 
 struct TraceOptions {

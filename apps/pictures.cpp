@@ -1,5 +1,6 @@
 #include "apps/pictures.h"
 
+#include "apps/camera_pictures.h"
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
@@ -14,22 +15,6 @@ namespace interflect::apps {
 namespace {
 
 constexpr double difference_scale = 0.1;  ///< relative difference at full colour
-
-/// What a method sees through a camera: one PixelRadiance a pixel [W/(m² sr) | cd/m²].
-core::Image picture_of(const measure::Method& method, const scene::Scene& scene, scene::CameraId camera, Run& run) {
-  core::Image image(scene.camera(camera).width, scene.camera(camera).height, scene.channels);
-  std::vector<measure::Measurement> asked;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) asked.emplace_back(measure::PixelRadiance{camera, x, y});
-  const std::vector<Estimate> found = method.answer(scene, asked, run);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < scene.channel_count(); ++c)
-        image.at(x, y, c) = static_cast<float>(
-            found[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)]
-                .value[c]);
-  return image;
-}
 
 core::Image beside_each_other(const results::ComparisonPanels& panels, [[maybe_unused]] std::uint64_t samples) {
 #ifdef INTERFLECT_WITH_VTK
@@ -49,7 +34,7 @@ std::string picture_file(const std::string& name, std::size_t camera) {
 void write_comparisons(const SolvedScene& solved, const ValidateOptions& options, Run& run) try {
   for (std::uint32_t c = 0; c < solved.scene.cameras.size(); ++c) {
     run.throw_if_stopped("pictures");
-    const core::Image fem = picture_of(solved.method(), solved.scene, {c}, run);
+    const core::Image fem = picture_of(solved.method(), solved.scene, {c}, run).radiance;
     const auto samples = static_cast<std::uint64_t>(options.picture_samples);
     const montecarlo::Rendering traced =
         montecarlo::render(solved.scene, {c}, samples, run, options.solve.settings.intersector);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/goals.h"
 #include "apps/read_scene.h"
 #include "apps/table.h"
 #include "core/build_info.h"
@@ -179,6 +180,8 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("mean_irradiance", error.mean_irradiance)
       .add("relative_error_l2", error.relative_l2)
       .add("relative_noise_l2", error.relative_noise_l2)
+      .add("adaptation",
+           solution.adaptation ? adaptation_record(*solution.adaptation, solved.scene) : results::Record())
       .add("repairs", lines_of(solved.scene.repairs))
       .add("warnings", solved.warnings)
       .add("stopped", run.stop.stop_requested())
@@ -224,7 +227,9 @@ std::string solution_text(const SolvedScene& solved) {
   text += "time        ";
   for (const fem::StageCost& stage : s.stages)
     text += core::format("%s %s  ", stage.stage.c_str(), core::format_duration(stage.seconds).c_str());
-  return text + "\n" + sensors_text(solved);
+  text += "\n" + sensors_text(solved);
+  if (s.adaptation) text += "\n" + adaptation_text(*s.adaptation, solved.scene);
+  return text;
 }
 
 }  // namespace interflect::apps

@@ -6,17 +6,6 @@
 
 namespace interflect::apps {
 
-namespace {
-
-/// With --forecast, what the solve will need is the result.
-ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
-  const fem::Forecast forecast = fem::forecast(read_and_note(options.scene), options.settings, run);
-  std::printf("%s\n", common.json ? results::json_text(forecast_record(forecast)).c_str() : describe(forecast).c_str());
-  return success;
-}
-
-}  // namespace
-
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run) {
   if (options.forecast_only) return print_forecast(options, common, run);
   const auto solved = solve_scene(options, common, run);

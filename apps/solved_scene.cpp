@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/goals.h"
 #include "apps/read_scene.h"
 #include "core/error.h"
 #include "core/format.h"
@@ -78,6 +79,10 @@ std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, c
     warnings.push_back(core::format(
         "some rows of form factors are less accurate than asked: sum_j |dF_ij| is up to %.1e, %.1e asked for",
         solution.largest_row_error, settings.row_tolerance));
+  if (const auto& made = solution.adaptation;
+      made && made->why != fem::AdaptiveStop::met && made->why != fem::AdaptiveStop::only_asked)
+    warnings.push_back("elements for '" + made->goal.name + "': the error is larger than asked, since " +
+                       describe(made->why));
   if (!solution.solver.converged())
     warnings.push_back("the solver has not converged: " + solvers::describe(solution.solver.why));
   return warnings;
@@ -95,16 +100,29 @@ results::Record forecast_record(const fem::Forecast& forecast) {
   return record.add("bytes", forecast.bytes).add("seconds", forecast.seconds);
 }
 
+ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
+  const fem::Forecast forecast = fem::forecast(read_and_note(options.scene), options.settings, run);
+  std::printf("%s\n", common.json ? results::json_text(forecast_record(forecast)).c_str() : describe(forecast).c_str());
+  return success;
+}
+
 std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run) {
   scene::Scene scene = read_and_note(options.scene);
-  const fem::Forecast forecast = fem::forecast(scene, options.settings, run);
-  auto folder = std::make_unique<results::OutputDirectory>(options.out);
-  if (!common.json && !common.quiet)
-    std::printf("bounding box %s\n%s\n", box_text(scene).c_str(), describe(forecast).c_str());
-  std::fflush(stdout);
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
   fem::RadiositySettings settings = options.settings;
+  if (options.target_error > 0 || !options.goal.empty())
+    settings.adaptive = {goal_named(options.goal, scene, points), options.target_error};
   if (!options.factors.empty()) settings.stored_factors = factors_from(options.factors);
+  const fem::Forecast forecast = fem::forecast(scene, settings, run);
+  auto folder = std::make_unique<results::OutputDirectory>(options.out);
+  if (!common.json && !common.quiet)
+    std::printf("bounding box %s\n%s\n", box_text(scene).c_str(),
+                options.target_error > 0
+                    ? core::format("elements are made for '%s' until its error is below %.2g %%",
+                                   settings.adaptive->goal.name.c_str(), 100 * options.target_error)
+                          .c_str()
+                    : describe(forecast).c_str());
+  std::fflush(stdout);
   auto solution = fem::solve_radiosity(scene, settings, run);
   auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution));
   solved->folder = std::move(folder);

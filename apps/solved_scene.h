@@ -46,6 +46,9 @@ std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, c
 std::string describe(const fem::Forecast& forecast);
 results::Record forecast_record(const fem::Forecast& forecast);
 
+/// With --forecast, what the solve will need is the result.
+ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run);
+
 /// Reads, forecasts, prepares the output folder, solves, answers the sensors, and warns of what the solution shows.
 /// @throws core::InputError, core::Interrupted
 std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run);

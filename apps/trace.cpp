@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "apps/camera_pictures.h"
 #include "apps/commands.h"
 #include "apps/read_scene.h"
 #include "core/error.h"
@@ -15,30 +16,6 @@
 
 namespace interflect::apps {
 namespace {
-
-scene::CameraId camera_named(const scene::Scene& scene, const std::string& name) {
-  if (scene.cameras.empty()) throw core::InputError(scene.file.string(), "this scene has no camera to trace from");
-  if (name.empty()) return {0};
-  if (const auto id = scene.find_camera(name)) return *id;
-  std::string known;
-  for (const scene::Camera& camera : scene.cameras) known += (known.empty() ? "" : ", ") + camera.name;
-  throw core::InputError("--camera " + name, scene.file.string() + " has " + known);
-}
-
-/// The channels of the picture, then their standard errors under NAME.error: one EXR that says how sure it is.
-core::Image with_errors(const montecarlo::Rendering& rendering) {
-  std::vector<std::string> names = rendering.radiance.channels;
-  for (const std::string& name : rendering.radiance.channels) names.push_back(name + ".error");
-  core::Image both(rendering.radiance.width, rendering.radiance.height, names);
-  const int channels = static_cast<int>(rendering.radiance.channels.size());
-  for (int y = 0; y < both.height; ++y)
-    for (int x = 0; x < both.width; ++x)
-      for (int c = 0; c < channels; ++c) {
-        both.at(x, y, c) = rendering.radiance.at(x, y, c);
-        both.at(x, y, channels + c) = rendering.standard_error.at(x, y, c);
-      }
-  return both;
-}
 
 /// Surfaces and sensors by path tracing, in the columns that every method writes; a stopped run writes what it has.
 /// @throws core::Interrupted  if it has nothing for some of them
@@ -117,7 +94,7 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   const montecarlo::Rendering rendering =
       montecarlo::render(scene, camera, static_cast<std::uint64_t>(options.samples), run, options.intersector);
   Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, false};
-  results::write_image(traced.exr.replace_extension(".exr"), with_errors(rendering));
+  results::write_image(traced.exr.replace_extension(".exr"), with_errors(rendering.radiance, rendering.standard_error));
   results::write_image(traced.png.replace_extension(".png"), results::as_rgb(scene, rendering.radiance));
   traced.estimates = estimates_written(scene, options, run);
   traced.stopped = run.stop.stop_requested();

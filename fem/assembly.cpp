@@ -24,24 +24,29 @@ class Total {
   PairCounts counts_;
 };
 
-PairCounts assemble_pairs(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches,
-                          ExchangeSink& sink, Run& run) {
-  const auto n = static_cast<Index>(patches.size());
-  const Index block = std::clamp<Index>(n / 24, 64, 512), blocks = (n + block - 1) / block;
-  std::vector<std::pair<Index, Index>> tasks;
-  for (Index I = 0; I < blocks; ++I)
-    for (Index J = I; J < blocks; ++J) tasks.emplace_back(I * block, J * block);
-  core::Progress::Stage stage(run.progress, "form factors", static_cast<std::uint64_t>(n * (n - 1) / 2));
-  Total total;
-  run.threads.for_blocks(static_cast<Index>(tasks.size()), 1, [&](Index task, Index) {
-    run.throw_if_stopped("form factors");
-    const auto [row, column] = tasks[static_cast<std::size_t>(task)];
-    const Index rows = std::min(block, n - row), columns = std::min(block, n - column);
-    total.add(method.exchange({patches, row, rows}, {patches, column, columns}, sink, run));
-    stage.advance(static_cast<std::uint64_t>(row == column ? rows * (rows - 1) / 2 : rows * columns));
-  });
-  return total.counts();
-}
+/// Blocks of rows and columns that have every pair a < b with b >= first_new once; blocks of the diagonal have others
+/// too, which `exchange` leaves out.
+struct Blocks {
+  std::vector<std::pair<ElementBlock, ElementBlock>> all;
+  std::uint64_t pairs = 0;
+
+  Blocks(std::span<const scene::SurfacePatch> patches, Index first_new) {
+    const auto n = static_cast<Index>(patches.size());
+    const Index block = std::clamp<Index>(n / 24, 64, 512);
+    for (Index column = first_new; column < n; column += block)
+      for (Index row = 0; row < std::min(column + block, n);) {
+        const Index rows = std::min(block, (row < first_new ? first_new : n) - row);  // rows end where columns begin
+        all.emplace_back(ElementBlock{patches, row, rows}, ElementBlock{patches, column, std::min(block, n - column)});
+        pairs += pairs_of(all.back());
+        row += rows;
+      }
+  }
+  static std::uint64_t pairs_of(const std::pair<ElementBlock, ElementBlock>& task) {
+    const auto [rows, columns] = task;
+    return static_cast<std::uint64_t>(rows.first == columns.first ? rows.count * (rows.count - 1) / 2
+                                                                  : rows.count * columns.count);
+  }
+};
 
 PairCounts assemble_rows(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches,
                          ExchangeSink& sink, Run& run) {
@@ -75,11 +80,25 @@ PairCounts assemble_rows(const FormFactorMethod& method, std::span<const scene::
 
 }  // namespace
 
+PairCounts assemble_new(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, Index first_new,
+                        ExchangeSink& sink, Run& run) {
+  const Blocks tasks(patches, first_new);
+  core::Progress::Stage stage(run.progress, "form factors", tasks.pairs);
+  Total total;
+  run.threads.for_blocks(static_cast<Index>(tasks.all.size()), 1, [&](Index k, Index) {
+    run.throw_if_stopped("form factors");
+    const auto& task = tasks.all[static_cast<std::size_t>(k)];
+    total.add(method.exchange(task.first, task.second, sink, run));
+    stage.advance(Blocks::pairs_of(task));
+  });
+  return total.counts();
+}
+
 PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink,
                     Run& run) {
   switch (method.granularity()) {
     case Granularity::pair:
-      return assemble_pairs(method, patches, sink, run);
+      return assemble_new(method, patches, 0, sink, run);
     case Granularity::row:
       return assemble_rows(method, patches, sink, run);
     case Granularity::all:

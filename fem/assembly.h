@@ -10,6 +10,11 @@ namespace interflect::fem {
 PairCounts assemble(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, ExchangeSink& sink,
                     Run& run);
 
+/// The pairs of which at least one is an element from `first_new` on, of a method that goes from pair to pair.
+/// @throws core::Interrupted
+PairCounts assemble_new(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, Index first_new,
+                        ExchangeSink& sink, Run& run);
+
 /// K of elements that each consist of four: K_IJ = sum of K_ij over the children i of I and j of J, because K is additive;
 /// without errors, stored as they are.  @param fine  children 4I .. 4I + 3
 std::unique_ptr<SymmetricOperator> aggregated(const SymmetricOperator& fine, Run& run);

@@ -49,13 +49,15 @@ std::vector<Spectrum> halving_differences(const RadiositySolution& s, const Symm
   return to_spectra(arriving.cwiseAbs());
 }
 
-void add_discretisation(RadiositySolution& s, std::span<const Spectrum> difference) {
+/// @param in_fours  elements are the quarters of others, four after four
+void add_discretisation(RadiositySolution& s, std::span<const Spectrum> difference, bool in_fours) {
   s.irradiance_error.assign(difference.begin(), difference.end());
   for (const mesh::ElementMesh::Part& part : s.mesh.parts()) {
     const Spectrum of_part = 0.5 * root_mean_square(s.mesh, difference, part.first, part.count);
     for (std::size_t i = part.first; i < part.first + part.count; ++i) {
-      const Spectrum of_siblings = root_mean_square(s.mesh, difference, i / 4 * 4, 4);
-      s.irradiance_error[i] = max(max(s.irradiance_error[i], of_siblings), of_part);
+      s.irradiance_error[i] = max(s.irradiance_error[i], of_part);
+      if (in_fours)
+        s.irradiance_error[i] = max(s.irradiance_error[i], root_mean_square(s.mesh, difference, i / 4 * 4, 4));
     }
   }
 }
@@ -185,6 +187,7 @@ void add_field(RadiositySolution& s, const ErrorSources& from, Run& run) {
 }  // namespace
 
 Spectrum irradiance_variation(const RadiositySolution& s, std::size_t element) {
+  if (s.field) return s.field->irradiance_variation(element);
   const std::size_t first = element / 4 * 4;
   Spectrum mean;
   double area = 0.0;
@@ -206,8 +209,10 @@ void estimate_errors(RadiositySolution& s, const ErrorSources& from, int channel
   const SampledNoise noise = sampled_noise(s, from.K, channels, run);
   set_noise(s, noise);
   if (from.both_converged)
-    add_discretisation(s, from.polynomials != nullptr ? from.polynomials->mean_irradiance
-                                                      : halving_differences(s, from.K, channels, run));
+    add_discretisation(
+        s,
+        from.polynomials != nullptr ? from.polynomials->mean_irradiance : halving_differences(s, from.K, channels, run),
+        from.polynomials == nullptr);
   else
     s.irradiance_error.assign(s.radiosity.size(), Spectrum(std::numeric_limits<double>::infinity()));
   add_quadrature(s, from);

@@ -28,6 +28,8 @@ struct ErrorSources {
 ///
 ///   max(|D_i|, rms of D over the four children of i's parent, 1/2 rms of D over i's side of its surface)
 ///
+/// (of polynomials without the second)
+///
 /// plus  neighbours: what radiosity varies by inside elements next to i, which halving does not show (neighbour_error.h);
 /// plus  quadrature: tolerance times H, over 1 - mean rho for all bounces; where the errors of rows are known, those times
 ///       the larger of H and the mean radiosity;
@@ -55,7 +57,7 @@ struct ErrorSources {
 /// Test: tests/fem/error_estimate.cpp, by coverage.
 void estimate_errors(RadiositySolution& solution, const ErrorSources& from, int channels, Run& run);
 
-/// Root mean square of irradiance inside an element about its mean, from its siblings as above.
+/// Root mean square of irradiance inside an element about its mean, from its siblings as above; of polynomials, theirs.
 Spectrum irradiance_variation(const RadiositySolution& solution, std::size_t element);
 
 }  // namespace interflect::fem

@@ -106,10 +106,14 @@ double element_size_of(const scene::Scene& scene, const RadiositySettings& setti
   return std::min(size_for(scene, elements), mesh::edge_for_area(mesh::active_area(scene), elements));
 }
 
+bool fits_memory(double elements, const RadiositySettings& settings, Granularity granularity) {
+  return predicted_bytes(elements, settings, granularity) <= settings.max_memory;
+}
+
 void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings,
                     Granularity granularity) {
+  if (fits_memory(elements, settings, granularity)) return;
   const double bytes = predicted_bytes(elements, settings, granularity);
-  if (bytes <= settings.max_memory) return;
   throw core::InputError(core::format("elements of %g m are about %.0f, which need %s, more than the %s allowed: %s",
                                       element_size_of(scene, settings), elements, core::format_bytes(bytes).c_str(),
                                       core::format_bytes(settings.max_memory).c_str(),
@@ -125,6 +129,7 @@ mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings
 }
 
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
+  require_compatible(settings);
   const mesh::ElementMesh mesh = elements_of(scene, settings);  // costs little beside what is forecast
   const auto elements = static_cast<double>(mesh.size());
   if (elements == 0) return {};

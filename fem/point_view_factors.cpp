@@ -164,7 +164,7 @@ class PointViewFactors::Receiver {
   }
   /// Of all functions but the first.
   void add_moments(Index j, const ElementShape& piece, std::span<double> out) {
-    const MomentIntegrand integrand(here_, n_, of_.bases_[static_cast<std::size_t>(j)]);
+    const MomentIntegrand integrand(here_, n_, of_.bases_[static_cast<std::size_t>(j)], of_.accuracy_);
     Moments seen = integrand.at_whole(x_, piece.ring());
     if (!list_.empty()) seen -= hidden_moments_.hidden_at(x_, piece, integrand, list_);
     for (std::size_t b = 1; b < out.size(); ++b) out[b] += seen(0, static_cast<Index>(b));
@@ -203,12 +203,14 @@ class PointViewFactors::Receiver {
   BlockerList list_;
 };
 
-PointViewFactors::PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int order)
+PointViewFactors::PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int order,
+                                   double accuracy)
     : patches_(patches),
       shapes_(patches),
       clusters_(clusters_of(patches, shapes_)),
       blockers_(scene, shapes_.origin(), shapes_.plane_tolerance()),
       order_(order),
+      accuracy_(accuracy),
       delta_(4 * eps * largest_coordinate(scene, patches)) {
   for (Index j = 0; order > 0 && j < elements(); ++j)
     bases_.emplace_back(order, shapes_[j].ring(), shapes_[j].plane.normal);

@@ -38,8 +38,10 @@ namespace interflect::fem {
 class PointViewFactors {
  public:
   /// The patches outlive this.
-  /// @param order  of polynomials on the elements, 0 .. 3
-  PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int order = 0);
+  /// @param order     of polynomials on the elements, 0 .. 3
+  /// @param accuracy  of what functions beyond constants send from afar, relative (distant_emitter.h); 0: to rounding
+  PointViewFactors(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, int order = 0,
+                   double accuracy = 0);
 
   Index elements() const { return static_cast<Index>(patches_.size()); }
   Index functions() const { return plane_functions(order_); }  ///< of an element
@@ -55,6 +57,7 @@ class PointViewFactors {
   std::vector<ElementCluster> clusters_;
   Blockers blockers_;
   int order_;
+  double accuracy_;
   std::vector<PlaneBasis> bases_;  ///< none of constants
   double delta_ = 0;               ///< what a position relative to another may be off [m]
 };

@@ -9,9 +9,20 @@ Spectrum PolynomialField::weighed(const solvers::ColumnMatrix& coefficients, Ind
   return sum;
 }
 
-Spectrum PolynomialField::at(std::size_t element, const Vec3& x) const {
+Spectrum PolynomialField::value(const solvers::ColumnMatrix& coefficients, std::size_t element, const Vec3& x) const {
   const PlaneBasis::Values N = bases[element].at(x);
-  return weighed(radiosity, static_cast<Index>(element) * functions, {N.data(), static_cast<std::size_t>(functions)});
+  return weighed(coefficients, static_cast<Index>(element) * functions,
+                 {N.data(), static_cast<std::size_t>(functions)});
+}
+
+Spectrum PolynomialField::irradiance_variation(std::size_t element) const {
+  Spectrum squares;
+  for (Index a = 1; a < functions; ++a)
+    for (int c = 0; c < irradiance.cols(); ++c) {
+      const double h = irradiance(static_cast<Index>(element) * functions + a, c);
+      squares[c] += h * h;
+    }
+  return sqrt(squares);
 }
 
 }  // namespace interflect::fem

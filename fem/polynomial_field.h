@@ -20,12 +20,19 @@ struct PolynomialField {
   Index functions;                        ///< of an element
   std::vector<PlaneBasis> bases;          ///< of elements
   solvers::ColumnMatrix radiosity;        ///< c: unknowns x channels
+  solvers::ColumnMatrix irradiance;       ///< G^-1 K c
   solvers::ColumnMatrix radiosity_below;  ///< of the order below, on the same functions
 
   /// B_h at a point of an element.
-  Spectrum at(std::size_t element, const Vec3& x) const;
+  Spectrum at(std::size_t element, const Vec3& x) const { return value(radiosity, element, x); }
+  Spectrum irradiance_at(std::size_t element, const Vec3& x) const { return value(irradiance, element, x); }
+  /// Root mean square of irradiance in an element about its mean.
+  Spectrum irradiance_variation(std::size_t element) const;
   /// sum_a w_a c_a of an element: w are what its functions are worth.
   static Spectrum weighed(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
+
+ private:
+  Spectrum value(const solvers::ColumnMatrix& coefficients, std::size_t element, const Vec3& x) const;
 };
 
 }  // namespace interflect::fem

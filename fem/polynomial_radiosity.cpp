@@ -66,7 +66,7 @@ PolynomialChange solve_polynomials(RadiositySolution& s, const SymmetricOperator
   s.radiosity = means(fields.radiosity, functions);
   s.irradiance = means(fields.irradiance, functions);
   s.coarse_radiosity = means(below.radiosity, functions);
-  s.field = PolynomialField{settings.order, functions, {}, fields.radiosity, below.radiosity};
+  s.field = PolynomialField{settings.order, functions, {}, fields.radiosity, fields.irradiance, below.radiosity};
   for (const scene::SurfacePatch& patch : s.mesh.patches())
     s.field->bases.emplace_back(settings.order, patch.ring(), patch.normal());
   PolynomialChange change{fields.report.converged() && below.report.converged(), {}, {}};

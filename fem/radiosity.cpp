@@ -13,6 +13,7 @@
 #include "fem/columns.h"
 #include "fem/energy.h"
 #include "fem/error_estimate.h"
+#include "fem/goal/adaptive_elements.h"
 #include "fem/polynomial_radiosity.h"
 #include "fem/radiosity_operator.h"
 
@@ -147,8 +148,12 @@ void balance_energy(RadiositySolution& s, const scene::Scene& scene, const rayca
   s.energy = energy_balance(s, lost);
 }
 
-/// What polynomials of order 1 and more do not go with, yet.
-void require_for_order(const RadiositySettings& settings) {
+}  // namespace
+
+void require_compatible(const RadiositySettings& settings) {
+  if (settings.adaptive && (settings.order < 1 || settings.order > 2))
+    throw core::InputError(core::format("polynomials of order %d", settings.order),
+                           "elements are made for a goal with order 1 or 2");
   if (settings.order == 0) return;
   const auto refuse = [&](const std::string& what) {
     throw core::InputError(core::format("polynomials of order %d", settings.order), "they do not go with " + what);
@@ -160,8 +165,6 @@ void require_for_order(const RadiositySettings& settings) {
     refuse("a tolerance of rows; that of entries (quadrature-tolerance) holds for theirs");
 }
 
-}  // namespace
-
 double mean_environment(const RadiositySolution& s) {
   double sum = 0, area = 0;
   for (std::size_t i = 0; i < s.environment.size(); ++i) {
@@ -171,18 +174,43 @@ double mean_environment(const RadiositySolution& s) {
   return area > 0 ? sum / area : 0.0;
 }
 
+namespace {
+
+/// Elements and their form factors.
+struct Elements {
+  mesh::ElementMesh mesh;
+  RadiosityOperator from;
+  std::optional<Adaptation> adaptation;
+};
+
+Elements elements_with_factors(const scene::Scene& scene, const RadiositySettings& settings,
+                               const raycast::RayCaster& rays, StageClock& timed, Run& run) {
+  if (settings.adaptive)
+    return timed("adaptive elements", [&]() -> Elements {
+      AdaptedElements made = adapt_elements(scene, settings, *settings.adaptive, rays, run);
+      return {std::move(made.mesh), std::move(made.from), std::move(made.adaptation)};
+    });
+  mesh::ElementMesh mesh = timed("mesh", [&] { return elements_of(scene, settings); });
+  if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
+  RadiosityOperator from =
+      timed("form factors", [&] { return assemble_operator(scene, mesh.patches(), rays, settings, run); });
+  return {std::move(mesh), std::move(from), std::nullopt};
+}
+
+}  // namespace
+
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
-  require_for_order(settings);
-  const double size = element_size_of(scene, settings);
+  require_compatible(settings);
   const int channels = scene.channel_count();
   std::vector<StageCost> stages;
   StageClock timed(stages);
-  RadiositySolution s(timed("mesh", [&] { return elements_of(scene, settings); }), size);
-  if (s.mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
-  set_materials(s, scene);
   const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
-  RadiosityOperator from =
-      timed("form factors", [&] { return assemble_operator(scene, s.mesh.patches(), *rays, settings, run); });
+  Elements elements = elements_with_factors(scene, settings, *rays, timed, run);
+  RadiosityOperator& from = elements.from;
+  const double size = settings.adaptive ? elements.mesh.longest_edge() : element_size_of(scene, settings);
+  RadiositySolution s(std::move(elements.mesh), size);
+  s.adaptation = std::move(elements.adaptation);
+  set_materials(s, scene);
   const SymmetricOperator& K = *from.K;
   set_operator_record(s, from);
   const std::vector<double> row_sum_before = K.row_sums(run);

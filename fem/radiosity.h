@@ -8,6 +8,7 @@
 
 #include "core/estimate.h"
 #include "fem/form_factor/method.h"
+#include "fem/goal/adaptation.h"
 #include "fem/polynomial_field.h"
 #include "mesh/element_mesh.h"
 #include "solvers/solver.h"
@@ -30,6 +31,8 @@ struct RadiositySettings {
   std::string closure = "none";           ///< or a repair of row sums by its name in closure.h
   std::uint64_t environment_rays = 1296;  ///< an element: what of it sees no other, where an open scene's closure asks
   double max_memory = 4e9;                ///< [bytes]
+  std::optional<AdaptiveSettings>
+      adaptive;  ///< elements are made for a goal, with polynomials; `element_size` is a start
   /// Where K comes from instead of `form_factors`, if there is such a source: entries of all pairs of these elements,
   /// each once.
   std::function<void(const scene::Scene&, std::span<const scene::SurfacePatch>, ExchangeSink&)> stored_factors;
@@ -43,16 +46,21 @@ double element_size_of(const scene::Scene& scene, const RadiositySettings& setti
 /// @throws core::InputError  where they need more memory than `max_memory`, saying which element size would fit
 mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings);
 
+/// @throws core::InputError  where settings do not go together: what polynomials of order 1 and more cannot have, yet
+void require_compatible(const RadiositySettings& settings);
+
 /// What a solve will need, said before it starts.
 struct Forecast {
   double elements, bytes, seconds;
 };
-/// @throws core::InputError  as `elements_of`
+/// @throws core::InputError  as `require_compatible` and `elements_of`
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run);
 
 /// @throws core::InputError  where these elements, by such a method, need more than `max_memory`, saying what would fit
 void require_memory(const scene::Scene& scene, double elements, const RadiositySettings& settings,
                     FormFactorMethod::Granularity granularity);
+
+bool fits_memory(double elements, const RadiositySettings& settings, FormFactorMethod::Granularity granularity);
 
 struct StageCost {
   std::string stage;
@@ -95,6 +103,7 @@ struct RadiositySolution {
   std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size: its parent's value; with
                                            ///< polynomials the mean of that of the order below
   std::optional<PolynomialField> field;    ///< none of constants
+  std::optional<Adaptation> adaptation;    ///< of elements that were made for a goal
   std::vector<double> row_sum;             ///< sum_j F_ij
   bool closed = false;                     ///< no ray that left an element was lost
   solvers::SolverReport solver;

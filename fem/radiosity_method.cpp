@@ -33,9 +33,15 @@ std::uint64_t key_of(const measure::PixelRadiance& pixel) {
 class Answers {
  public:
   Answers(const scene::Scene& scene, const RadiositySolution& solution, const raycast::RayCaster& rays,
-          std::uint64_t seed)
-      : scene_(scene), s_(solution), rays_(rays), seed_(seed), gather_(scene, solution.mesh.patches(), rays, seed) {
-    if (s_.field) exact_.emplace(scene, s_.mesh.patches(), s_.field->order);
+          const PixelRays& pixel, std::uint64_t seed)
+      : scene_(scene),
+        s_(solution),
+        rays_(rays),
+        pixel_(pixel),
+        seed_(seed),
+        gather_(scene, solution.mesh.patches(), rays, seed) {
+    constexpr double accuracy_of_pixels = 1e-4;
+    if (s_.field) exact_.emplace(scene, s_.mesh.patches(), s_.field->order, pixel.gather ? accuracy_of_pixels : 0.0);
     for (std::size_t i = 0; i < s_.radiosity.size(); ++i) {
       importance_.push_back(std::max(0.0, scene.weigh(s_.radiosity[i])));
       halving_.push_back(s_.radiosity[i] - s_.coarse_radiosity[i]);
@@ -52,10 +58,12 @@ class Answers {
   void add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& tiles) const;
   Estimate arriving_on(std::vector<Tile> tiles, bool plane) const;
   Estimate by_polynomials(const measure::PointIrradiance& asked) const;
+  Estimate radiosity_at(std::size_t element, const scene::SurfacePoint& x) const;
 
   const scene::Scene& scene_;
   const RadiositySolution& s_;
   const raycast::RayCaster& rays_;
+  PixelRays pixel_;
   std::uint64_t seed_;
   Gather gather_;
   std::optional<PointViewFactors> exact_;  ///< of polynomials
@@ -209,8 +217,21 @@ Estimate Answers::operator()(const measure::PointIrradiance& asked) const {
           Claim::estimated, gathered.rays};
 }
 
+/// B_h, or the iterated one.
+Estimate Answers::radiosity_at(std::size_t i, const scene::SurfacePoint& x) const {
+  const Spectrum rho = s_.reflectance[i];
+  if (!pixel_.gather)
+    return {s_.field ? s_.field->at(i, x.position) : s_.radiosity[i], rho * s_.irradiance_noise[i],
+            rho * s_.irradiance_error[i] + s_.field_error[i], Claim::estimated, 0};
+  Estimate B = (*this)(measure::PointIrradiance{x.position, s_.mesh.patches()[i].normal(), x.surface});
+  B.value = s_.exitance[i] + rho * B.value;
+  B.standard_error *= rho;
+  B.error_bound *= rho;
+  return B;
+}
+
 Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
-  constexpr int side = 4;
+  const int side = pixel_.side;
   const scene::Camera& camera = scene_.camera(asked.camera);
   core::RandomNumbers random(core::derived_seed(seed_, "pixels"), 0, key_of(asked));
   core::Moments radiance;
@@ -224,12 +245,12 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
       radiance.add(Spectrum::zero());  // nothing, or a black back
       continue;
     }
-    const std::size_t i = element->element.value;
-    radiance.add((s_.field ? s_.field->at(i, hit->position) : s_.radiosity[i]) * inv_pi);
-    error += inv_pi / (side * side) *
-             (s_.reflectance[i] * (s_.irradiance_error[i] + s_.irradiance_noise[i]) + s_.field_error[i]);
+    const Estimate B = radiosity_at(element->element.value, *hit);
+    radiance.add(inv_pi * B.value);
+    error += inv_pi / (side * side) * (B.error_bound + B.standard_error);
   }
-  return {radiance.mean(), radiance.standard_error(), error, Claim::estimated, radiance.count()};
+  return {radiance.mean(), radiance.count() > 1 ? radiance.standard_error() : Spectrum(), error, Claim::estimated,
+          radiance.count()};
 }
 
 }  // namespace
@@ -237,7 +258,7 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
 std::vector<Estimate> RadiosityMethod::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                               Run& run) const {
   std::vector<Estimate> estimates(asked.size());
-  const Answers answers(scene, solution_, rays_, run.seed);
+  const Answers answers(scene, solution_, rays_, pixel_, run.seed);
   core::Progress::Stage stage(run.progress, "radiosity answers", asked.size());
   run.threads.for_blocks(static_cast<Index>(asked.size()), 16, [&](Index begin, Index end) {
     run.throw_if_stopped("radiosity answers");

@@ -40,6 +40,38 @@ class BlockSink final : public ExchangeSink {
   Index functions_;
 };
 
+/// K of polynomials and, of its first functions, of constants: empty.
+struct PolynomialOperator {
+  explicit PolynomialOperator(std::span<const scene::SurfacePatch> patches, int order)
+      : functions(plane_functions(order)), K(std::make_unique<DenseSymmetric>(areas_of(patches))) {
+    std::vector<double> gram;
+    for (const scene::SurfacePatch& patch : patches)
+      gram.insert(gram.end(), static_cast<std::size_t>(functions), patch.area);
+    blocks = std::make_unique<DenseSymmetric>(std::move(gram));
+  }
+  BlockSink sink() { return {*K, *blocks, functions}; }
+
+  Index functions;
+  std::unique_ptr<DenseSymmetric> K, blocks;
+};
+
+/// Elements in another order than that of the sink behind.
+class Reordered final : public ExchangeSink {
+ public:
+  /// @param element  of the sink behind, per element
+  Reordered(ExchangeSink& behind, std::span<const Index> element, Index functions)
+      : behind_(behind), element_(element), functions_(functions) {}
+  void add(Index a, Index b, const ExchangeEntry& entry) override { behind_.add(there(a), there(b), entry); }
+
+ private:
+  Index there(Index unknown) const {
+    return element_[static_cast<std::size_t>(unknown / functions_)] * functions_ + unknown % functions_;
+  }
+  ExchangeSink& behind_;
+  std::span<const Index> element_;
+  Index functions_;
+};
+
 /// All entries into a sink, from wherever settings say.
 class Source {
  public:
@@ -115,15 +147,11 @@ RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const s
   RadiosityOperator out;
   Filled filled;
   if (settings.order > 0) {
-    const int functions = plane_functions(settings.order);
-    std::vector<double> gram;
-    for (const double area : areas_of(patches)) gram.insert(gram.end(), static_cast<std::size_t>(functions), area);
-    auto K = std::make_unique<DenseSymmetric>(areas_of(patches));
-    auto blocks = std::make_unique<DenseSymmetric>(std::move(gram));
-    BlockSink sink(*K, *blocks, functions);
+    PolynomialOperator polynomials(patches, settings.order);
+    BlockSink sink = polynomials.sink();
     filled = source.fill(sink);
-    out.K = std::move(K);
-    out.blocks = std::move(blocks);
+    out.K = std::move(polynomials.K);
+    out.blocks = std::move(polynomials.blocks);
   } else if (settings.drop_below > 0) {
     SparseAssembly assembly(areas_of(patches), settings.drop_below);
     filled = source.fill(assembly);
@@ -138,6 +166,42 @@ RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const s
   if (filled.row_errors.empty()) return out;
   out.largest_row_error = *std::max_element(filled.row_errors.begin(), filled.row_errors.end());
   out.row_bound = without_noise(std::move(filled.row_errors), *out.K, run);
+  return out;
+}
+
+RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<const Index> same_as,
+                                   const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                   const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run) {
+  PolynomialOperator polynomials(patches, settings.order);
+  BlockSink sink = polynomials.sink();
+  std::vector<Index> order;  // those that stay, then those that are new
+  for (std::size_t i = 0; i < same_as.size(); ++i)
+    if (same_as[i] >= 0) order.push_back(static_cast<Index>(i));
+  const auto kept = static_cast<Index>(order.size());
+  for (std::size_t i = 0; i < same_as.size(); ++i)
+    if (same_as[i] < 0) order.push_back(static_cast<Index>(i));
+  std::vector<scene::SurfacePatch> reordered;
+  for (const Index i : order) reordered.push_back(patches[static_cast<std::size_t>(i)]);
+
+  const Index f = polynomials.functions;
+  run.threads.for_blocks(kept, 1, [&](Index k, Index) {
+    const Index i = order[static_cast<std::size_t>(k)], was_i = same_as[static_cast<std::size_t>(i)];
+    for (Index l = k + 1; l < kept; ++l) {
+      const Index j = order[static_cast<std::size_t>(l)], was_j = same_as[static_cast<std::size_t>(j)];
+      for (Index a = 0; a < f; ++a)
+        for (Index b = 0; b < f; ++b)
+          sink.add(i * f + a, j * f + b, {before.blocks->entry(was_i * f + a, was_j * f + b)});
+    }
+  });
+  FormFactorContext context = form_factor_context(scene, reordered, rays, settings, run.seed);
+  const auto method = make_form_factor_method(settings.form_factors, context);
+  require_memory(scene, static_cast<double>(patches.size()), settings, method->granularity());
+  Reordered to(sink, order, f);
+  RadiosityOperator out;
+  out.pairs = before.pairs;
+  out.pairs += assemble_new(*method, reordered, kept, to, run);
+  out.K = std::move(polynomials.K);
+  out.blocks = std::move(polynomials.blocks);
   return out;
 }
 

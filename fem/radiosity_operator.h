@@ -32,4 +32,10 @@ FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const
 RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
                                     const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run);
 
+/// The same of polynomials, for elements of which some are those of `before`, whose pairs are taken from there.
+/// @param same_as  per element: which of the elements before it is; -1: it is new
+RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<const Index> same_as,
+                                   const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                   const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run);
+
 }  // namespace interflect::fem

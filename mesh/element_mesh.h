@@ -24,7 +24,8 @@ struct ElementPoint {
 
 /// The elements of a scene: of every active side of every surface, in the order of the surfaces, fronts before backs.
 ///
-/// Inside a side of a surface the mesh is conforming: two elements meet in a whole edge, a corner, or not at all.
+/// As meshes are made, they are conforming inside a side of a surface: two elements meet in a whole edge, a corner, or
+/// not at all.  Where some are cut further (uniform.h), corners may hang on edges of their neighbours.
 class ElementMesh {
  public:
   /// Elements of one side of one surface, which follow each other.

@@ -114,11 +114,23 @@ ElementMesh uniform(const scene::Scene& scene, double max_edge) {
 }
 
 ElementMesh quartered(const ElementMesh& mesh) {
+  return quartered(mesh, std::vector<bool>(mesh.patches().size(), true)).mesh;
+}
+
+PartlyQuartered quartered(const ElementMesh& mesh, const std::vector<bool>& which) {
   std::vector<SurfacePatch> patches;
-  patches.reserve(4 * mesh.patches().size());
-  for (const SurfacePatch& patch : mesh.patches())
-    for (const SurfacePatch& part : quarters_of(patch)) patches.push_back(part);
-  return ElementMesh(std::move(patches));
+  std::vector<std::size_t> parent;
+  const auto append = [&](const SurfacePatch& patch, std::size_t of) {
+    patches.push_back(patch);
+    parent.push_back(of);
+  };
+  for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+    const SurfacePatch& patch = mesh.patches()[i];
+    if (!which[i]) append(patch, i);
+    if (which[i])
+      for (const SurfacePatch& part : quarters_of(patch)) append(part, i);
+  }
+  return {ElementMesh(std::move(patches)), std::move(parent)};
 }
 
 }  // namespace interflect::mesh

@@ -23,6 +23,15 @@ ElementMesh whole_faces(const scene::Scene& scene);
 /// Every element cut into four, at the midpoints of its edges: children 4i .. 4i+3 of element i, in order.
 ElementMesh quartered(const ElementMesh& mesh);
 
+/// Some elements cut into four, in the place of the whole ones: their neighbours are left as they are, so that corners
+/// may hang on edges.
+struct PartlyQuartered {
+  ElementMesh mesh;
+  std::vector<std::size_t> parent;  ///< of each element: the one before that it is, or is a quarter of
+};
+/// @param which  per element
+PartlyQuartered quartered(const ElementMesh& mesh, const std::vector<bool>& which);
+
 /// About how many elements `uniform` makes, or would make, without making them: for forecasts.  Any number, infinity
 /// too.
 double predicted_elements(const scene::Scene& scene, double max_edge);

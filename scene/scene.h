@@ -78,6 +78,7 @@ struct Scene {
       const Spectrum& s) const;   ///< sum_c weights[c] s[c], where a weight of 0 leaves out what is infinite too
   Spectrum emitted_flux() const;  ///< sum of A E over the surfaces [W | lm]
   const char* irradiance_unit() const { return quantity == Quantity::photometric ? "lx" : "W/m2"; }
+  const char* radiance_unit() const { return quantity == Quantity::photometric ? "cd/m2" : "W/(m2 sr)"; }
   const char* flux_unit() const { return quantity == Quantity::photometric ? "lm" : "W"; }
 
   /// Linear red, green, blue of a spectrum, for looking: the channels themselves where they are r, g, b, else grey.

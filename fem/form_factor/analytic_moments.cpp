@@ -8,7 +8,9 @@ namespace interflect::fem {
 class AnalyticMoments::Work final : public PairWork {
  public:
   explicit Work(const AnalyticMoments& method)
-      : moments_(method.moments_), hidden_(method.shapes(), method.blockers(), method.context().tolerance) {}
+      : moments_(method.moments_),
+        hidden_(method.shapes(), method.blockers(), method.context().tolerance),
+        accuracy_(0.1 * method.context().tolerance) {}
 
   void clear(Index i, Index j, const PairIntegral& K, ExchangeSink& sink) override {
     write(i, j, moments_(i, j, K), sink);
@@ -19,7 +21,7 @@ class AnalyticMoments::Work final : public PairWork {
     const bool all = hidden_(
         pair, counts,
         [&](const ElementShape& outer, bool i_is_outer) {
-          return MomentIntegrand(i_is_outer ? of_i : of_j, outer.plane.normal, i_is_outer ? of_j : of_i);
+          return MomentIntegrand(i_is_outer ? of_i : of_j, outer.plane.normal, i_is_outer ? of_j : of_i, accuracy_);
         },
         [&](const HiddenIntegralOf<Moments>& part, bool i_is_outer) {
           if (i_is_outer)
@@ -31,7 +33,7 @@ class AnalyticMoments::Work final : public PairWork {
     if (all) return;
     PairMoments block = moments_(pair.i, pair.j, pair.unoccluded);
     block.value -= hidden.value;
-    block.error += hidden.error;
+    block.error += hidden.error + accuracy_ * pair.unoccluded.value;
     write(pair.i, pair.j, block, sink);
   }
 
@@ -44,6 +46,7 @@ class AnalyticMoments::Work final : public PairWork {
 
   const MomentIntegrator& moments_;
   HiddenPairs<MomentIntegrand> hidden_;
+  double accuracy_;  ///< of far parts' irradiance, relative
 };
 
 AnalyticMoments::AnalyticMoments(const FormFactorContext& context)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "fem/form_factor/distant_emitter.h"
 #include "fem/form_factor/polynomial_emitter.h"
 #include "fem/space/plane_basis.h"
 #include "geometry/hidden_part.h"
@@ -13,22 +14,23 @@ namespace interflect::fem {
 using Moments =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, PlaneBasis::most_functions, PlaneBasis::most_functions>;
 
-/// N_a(x) times the irradiance at x from parts of an element whose radiosity is N_b, in closed form
-/// (polynomial_emitter.h): what is integrated over the receiving one.
+/// N_a(x) times the irradiance at x from parts of an element whose radiosity is N_b: what is integrated over the
+/// receiving one.  Of near parts in closed form (polynomial_emitter.h), of far ones by rules, if that is accurate enough
+/// (distant_emitter.h).
 class MomentIntegrand {
  public:
   using Value = Moments;
 
-  /// All outlive this.
-  MomentIntegrand(const PlaneBasis& receiver, const Vec3& normal, const PlaneBasis& emitter)
-      : degrees(receiver.order()), receiver_(receiver), normal_(normal), emitter_(emitter) {}
+  /// All outlive this.  @param accuracy  of far parts; 0: all are in closed form
+  MomentIntegrand(const PlaneBasis& receiver, const Vec3& normal, const PlaneBasis& emitter, double accuracy)
+      : degrees(receiver.order()), receiver_(receiver), normal_(normal), emitter_(emitter), accuracy_(accuracy) {}
 
   int degrees;  ///< of its own polynomials
 
   /// Of a convex polygon on the emitter, none of it below x's horizon.
   Value at_whole(const Vec3& x, std::span<const Vec3> ring) const {
     Integrals integrals;
-    point_to_monomials(x, normal_, ring, emitter_.frame(), emitter_.order(), integrals);
+    integrate(x, ring, emitter_.frame(), integrals);
     return weighed(x, integrals);
   }
   /// Of several, relative to x.
@@ -37,7 +39,7 @@ class MomentIntegrand {
     frame.origin -= x;
     Integrals sum{}, integrals{};
     const auto add = [&](std::span<const Vec3> part) {
-      point_to_monomials(Vec3::Zero(), normal_, part, frame, emitter_.order(), integrals);
+      integrate(Vec3::Zero(), part, frame, integrals);
       for (std::size_t a = 0; a < sum.size(); ++a) sum[a] += integrals[a];
     };
     for (std::size_t k = 0; k < parts.size(); ++k) for_fans(parts[k], add);
@@ -65,6 +67,10 @@ class MomentIntegrand {
       first += count - 1;
     }
   }
+  void integrate(const Vec3& x, std::span<const Vec3> ring, const PlaneFrame& frame, Integrals& out) const {
+    if (accuracy_ > 0 && distant_monomials(x, normal_, ring, frame, emitter_.order(), accuracy_, out)) return;
+    point_to_monomials(x, normal_, ring, frame, emitter_.order(), out);
+  }
   Value weighed(const Vec3& x, const Integrals& integrals) const {
     return receiver_.at(x) * emitter_.of_monomials(integrals).transpose();
   }
@@ -72,6 +78,7 @@ class MomentIntegrand {
   const PlaneBasis& receiver_;
   Vec3 normal_;
   const PlaneBasis& emitter_;
+  double accuracy_;
 };
 
 }  // namespace interflect::fem

@@ -86,12 +86,13 @@ double rounding_of(const ElementShape& outer, const PlaneBasis& of_outer, const 
 
 PairMoments near(const ElementShape& outer, const PlaneBasis& of_outer, const ElementShape& inner,
                  const PlaneBasis& of_inner, double tolerance) {
-  const WholeIntegrand integrand(MomentIntegrand(of_outer, outer.plane.normal, of_inner), inner.ring());
+  const double accuracy = 0.1 * tolerance / (outer.area * of_outer.largest());
+  const WholeIntegrand integrand(MomentIntegrand(of_outer, outer.plane.normal, of_inner, accuracy), inner.ring());
   AdaptiveCells<WholeIntegrand> cells(integrand, inner.ring(), cell_scheme(tolerance / outer.area));
   cells.cover(outer.ring());
   while (cells.error() > tolerance && cells.cells() < most_cells) cells.cut_worst();
   const auto [value, error] = cells.result();
-  return {value, error + rounding_of(outer, of_outer, inner, of_inner)};
+  return {value, error + 0.1 * tolerance + rounding_of(outer, of_outer, inner, of_inner)};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "fem/form_factor/dilogarithm.h"
 
@@ -45,15 +46,23 @@ LineIntegrals line_integrals(const Edge& edge, double h) {
   return line;
 }
 
+/// Im Li2(-q e^{2 i phi}), tan phi = t / d, for 0 < q <= 1: no logarithm of what cancels.
+double dilogarithm_at(double q, double log_q, double phi, double t, double d) {
+  const double square = d * d + t * t, cosine = (d * d - t * t) / square, sine = 2 * t * d / square,
+               from_1 = (1 - q) * (1 - q) + 4 * q * d * d / square;  // |1 + q e^{2 i phi}|²
+  const std::complex<double> log_z(log_q, phi > 0 ? 2 * phi - std::numbers::pi : 2 * phi + std::numbers::pi),
+      log_1_minus_z(0.5 * std::log(from_1), q == 1 ? phi : std::atan2(q * sine, 1 + q * cosine));
+  return dilogarithm_imaginary({-q * cosine, -q * sine}, log_z, log_1_minus_z);
+}
+
 /// Its part of J_00.
 double dilogarithms(const Edge& edge, double h) {
   if (edge.d == 0) return 0;
-  const double k = std::abs(edge.d) / h, root = std::sqrt(1 + k * k), log_q = -2 * std::asinh(k),
+  const double d = std::abs(edge.d), k = d / h, root = std::sqrt(1 + k * k), log_q = -2 * std::asinh(k),
                q = 1 / ((root + k) * (root + k));
   const auto at = [&](double t) {
-    const double phi = std::atan(t / std::abs(edge.d));
-    const std::complex<double> turn = std::polar(1.0, 2 * phi);
-    return -phi * log_q - dilogarithm(-q * turn).imag() + dilogarithm(-turn).imag();
+    const double phi = std::atan(t / d);
+    return -phi * log_q - dilogarithm_at(q, log_q, phi, t, d) + dilogarithm_at(1, 0, phi, t, d);
   };
   return std::copysign(0.5, edge.d) * (at(edge.t_1) - at(edge.t_0));
 }
@@ -158,11 +167,10 @@ Grid over_fourth_power(const Outline& outline, double h, int degree) {
   return I;
 }
 
-double binomial(int n, int k) {
-  double product = 1;
-  for (int i = 1; i <= k; ++i) product *= static_cast<double>(n - k + i) / i;
-  return product;
-}
+constexpr double binomial[highest][highest] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
+
+/// 1, x, x², x³
+std::array<double, highest> powers_of(double x) { return {1, x, x * x, x * x * x}; }
 
 }  // namespace
 
@@ -186,14 +194,16 @@ void point_to_monomials(const Vec3& x, const Vec3& n, std::span<const Vec3> poly
   for (std::size_t i = 0; static_cast<int>(i) <= order; ++i)
     for (std::size_t j = 0; static_cast<int>(i + j) <= order; ++j)
       about_foot[i][j] = inv_pi * (n_1 * I[i + 1][j] + n_2 * I[i][j + 1] - (i + j == 0 ? 1 : h) * n_3 * I[i][j]);
-  for (int i = 0, at = 0; i <= order; ++i)
-    for (int j = 0; j <= i; ++j, ++at) {  // xi^(i-j) eta^j, from powers of (xi - foot) and (eta - foot)
+  const auto foot_1 = powers_of(foot.x()), foot_2 = powers_of(foot.y());
+  const auto degree = static_cast<std::size_t>(order);
+  for (std::size_t total = 0, to = 0; total <= degree; ++total)
+    for (std::size_t j = 0; j <= total; ++j, ++to) {  // xi^i eta^j, from powers of (xi - foot) and (eta - foot)
+      const std::size_t i = total - j;
       double sum = 0;
-      for (int k = 0; k <= i - j; ++k)
-        for (int l = 0; l <= j; ++l)
-          sum += binomial(i - j, k) * binomial(j, l) * std::pow(foot.x(), i - j - k) * std::pow(foot.y(), j - l) *
-                 about_foot[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)];
-      out[static_cast<std::size_t>(at)] = sum;
+      for (std::size_t k = 0; k <= i; ++k)
+        for (std::size_t l = 0; l <= j; ++l)
+          sum += binomial[i][k] * binomial[j][l] * foot_1[i - k] * foot_2[j - l] * about_foot[k][l];
+      out[to] = sum;
     }
 }
 

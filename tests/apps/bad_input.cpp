@@ -50,6 +50,14 @@ TEST(BadInput, no_such_command_or_option) {
     expect_refused({"solve", shipped_scene("cube"), "-o", "x", "--seed", seed}, "--seed");
 }
 
+TEST(BadInput, goals_that_are_none) {
+  const std::string scene = shipped_scene("cube");
+  expect_refused({"solve", scene, "-o", "x", "--goal", "nowhere"}, "one of middle_down, middle_up, camera:inside, or");
+  expect_refused({"solve", scene, "-o", "x", "--goal", "camera:nowhere"}, "--goal camera:nowhere");
+  expect_refused({"solve", scene, "-o", "x", "--target-error", "2"}, "--target-error");
+  expect_refused({"solve", scene, "-o", "x", "--goal", "floor", "--order", "3"}, "order 1 or 2");
+}
+
 TEST(BadInput, settings_that_the_method_has_not) {
   const std::string scene = shipped_scene("cube");
   expect_refused({"view-factors", scene, "-o", "F.csv", "--samples", "1e4"}, "form factors by analytic have none");

@@ -177,6 +177,24 @@ TEST(Solve, repairs_drops_and_meets_tolerances_as_asked) {
   EXPECT_EQ(r.at("settings").at("resolution"), 32);
 }
 
+// The ceiling of the cube reflects half of what reaches it and sends 0.1712161 on (known to 5e-7).
+TEST(Solve, makes_elements_for_a_goal_and_says_how_it_got_there) {
+  const TemporaryFolder folder;
+  const Outcome solve = interflect({"solve", shipped_scene("cube"), "-o", folder / "out", "--no-pictures", "--goal",
+                                    "ceiling", "--target-error", "0.02%", "--element-size", "2"});
+  ASSERT_EQ(solve.status, 0) << solve.err;
+  EXPECT_TRUE(contains(solve.out, "E_avg(ceiling) = 0.34")) << solve.out;
+  EXPECT_TRUE(contains(solve.out, "W/m2, error <= ")) << solve.out;
+  const json summary = json::parse(read_file(folder / "out/summary.json")), made = summary.at("adaptation");
+  EXPECT_EQ(made.at("goal"), "ceiling");
+  EXPECT_EQ(made.at("met"), true);
+  const json last = made.at("passes").back();
+  EXPECT_GT(made.at("passes").size(), 1u);
+  EXPECT_LE(last.at("relative_error"), 2e-4);
+  EXPECT_LT(std::abs(last.at("value").get<double>() - 0.3424322), last.at("error").get<double>() + 1e-6);
+  EXPECT_EQ(summary.at("elements"), last.at("elements"));
+}
+
 TEST(Solve, a_forecast_writes_nothing) {
   const TemporaryFolder folder;
   const Outcome forecast = interflect({"solve", shipped_scene("office"), "-o", folder / "out", "--forecast"});
@@ -269,6 +287,27 @@ TEST(Validate, a_solver_that_has_not_converged_is_a_reason) {
 
 // In the furnace every pixel's radiance is 1 / pi (E = 1 - rho in a closed box).  Of 120 000 independent pixels the
 // mean is normal: 5 standard errors are exceeded with a probability of 6e-7.
+// In the furnace every pixel is 1 / pi, gathered or not.
+TEST(Render, sees_the_furnace_as_bright_as_it_is) {
+  const TemporaryFolder folder;
+  const std::vector<std::vector<std::string>> ways{
+      {}, {"--order", "1", "--gather", "--rays", "1"}, {"--gather", "--rays", "1", "--form-factors", "analytic"}};
+  for (const auto& way : ways) {
+    std::vector<std::string> command{"render", shipped_scene("furnace"), "-o", folder / "f.png", "--element-size", "2"};
+    command.insert(command.end(), way.begin(), way.end());
+    const Outcome render = interflect(command);
+    ASSERT_EQ(render.status, 0) << render.err;
+    const core::Image image = results::read_exr(folder / "f.exr");
+    ASSERT_EQ(image.channels, (std::vector<std::string>{"y", "y.error"}));
+    for (int y = 0; y < image.height; y += 7)
+      for (int x = 0; x < image.width; x += 7) {
+        EXPECT_NEAR(image.at(x, y, 0), inv_pi, 0.01) << x << ' ' << y;
+        EXPECT_LE(std::abs(image.at(x, y, 0) - inv_pi), image.at(x, y, 1) + 1e-6);
+      }
+    EXPECT_EQ(read_file(folder / "f.png").substr(0, 4), "\x89PNG");
+  }
+}
+
 TEST(Trace, sees_the_furnace_as_bright_as_it_is_and_says_how_sure_it_is) {
   const TemporaryFolder folder;
   const Outcome trace = interflect({"trace", shipped_scene("furnace"), "--spp", "4", "-o", folder / "f.exr"});

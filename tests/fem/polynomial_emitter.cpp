@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "fem/form_factor/distant_emitter.h"
 #include "fem/form_factor/point_to_polygon.h"
 #include "fem/kernel.h"
 #include "fem/quadrature.h"
@@ -68,6 +69,47 @@ TEST(PolynomialEmitter, is_what_quadrature_finds) {
         const auto F = closed(x, n, ring, 3), G = integrated(x, n, ring, 3, 8);
         for (std::size_t k = 0; k < F.size(); ++k) EXPECT_NEAR(F[k], G[k], 1e-12) << k << " " << x.transpose();
       }
+}
+
+// Polygons of three to five corners, 2 to 30 of their sizes away: errors are within what was asked, of what the kernel
+// is at most; and rules are taken from where they should be.
+TEST(PolynomialEmitter, of_distant_polygons_is_found_by_rules_to_the_accuracy_asked) {
+  core::RandomNumbers random(17, 0, 0);
+  int taken = 0, asked = 0;
+  for (const double accuracy : {1e-2, 1e-4, 1e-6})
+    for (int k = 0; k < 2000; ++k) {
+      const int corners = 3 + k % 3;
+      Ring ring;
+      const double turn = random.next();
+      for (int c = 0; c < corners; ++c) {
+        const double angle = 2 * pi * (c + .6 * random.next() + turn) / corners;
+        ring.emplace_back(std::cos(angle), .7 * std::sin(angle), 0);
+      }
+      const double distance = 2 * std::pow(15.0, random.next()), cosine = .05 + .95 * random.next(),
+                   azimuth = 2 * pi * random.next(), sine = std::sqrt(1 - cosine * cosine);
+      const Vec3 x = distance * Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
+      const Vec3 n = (Vec3(random.next() - .5, random.next() - .5, 0) * .4 * distance - x).normalized();
+      bool above = true;
+      for (const Vec3& p : ring) above = above && n.dot(p - x) > 0;
+      if (!above) continue;
+      const PlaneFrame frame{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
+      std::array<double, 10> far{}, exact{};
+      const int order = k % 4;
+      ++asked;
+      if (!distant_monomials(x, n, ring, frame, order, accuracy, far)) continue;
+      ++taken;
+      point_to_monomials(x, n, ring, frame, order, exact);
+      double area = 0, nearest = distance;
+      for (std::size_t c = 2; c < ring.size(); ++c)
+        area += .5 * (ring[c - 1] - ring[0]).cross(ring[c] - ring[0]).norm();
+      for (const Vec3& p : ring) nearest = std::min(nearest, (p - x).norm());
+      const double most = x.z() * area / (pi * nearest * nearest * nearest),
+                   rounding = 1e-13 * std::pow(distance, order);
+      for (int m = 0; m < plane_functions(order); ++m)
+        EXPECT_NEAR(far[static_cast<std::size_t>(m)], exact[static_cast<std::size_t>(m)], accuracy * most + rounding)
+            << order << ' ' << distance;
+    }
+  EXPECT_GT(taken, asked / 3);
 }
 
 TEST(PolynomialEmitter, of_degree_0_is_lamberts_formula) {

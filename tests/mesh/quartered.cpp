@@ -48,3 +48,32 @@ TEST(Quartered, halves_every_edge_and_stays_conforming) {
     for (const auto& [edge, count] : of_fine.edges) EXPECT_EQ(count, 1);
   }
 }
+
+TEST(Quartered, in_part_keeps_order_area_and_every_point) {
+  const scene::Scene scene = mixed_scene();
+  const ElementMesh before = uniform(scene, 0.7);
+  std::vector<bool> which(before.patches().size());
+  for (std::size_t i = 0; i < which.size(); i += 3) which[i] = true;
+  const PartlyQuartered after = quartered(before, which);
+  ASSERT_EQ(after.parent.size(), after.mesh.patches().size());
+  std::vector<double> area(which.size());
+  std::vector<int> children(which.size());
+  for (std::size_t i = 0; i < after.parent.size(); ++i) {
+    const std::size_t parent = after.parent[i];
+    if (i > 0) EXPECT_LE(after.parent[i - 1], parent);
+    area[parent] += after.mesh.patches()[i].area;
+    ++children[parent];
+    EXPECT_EQ(after.mesh.patches()[i].surface, before.patches()[parent].surface);
+  }
+  for (std::size_t p = 0; p < which.size(); ++p) {
+    EXPECT_EQ(children[p], which[p] ? 4 : 1);
+    EXPECT_NEAR(area[p], before.patches()[p].area, 1e-13 * area[p]);
+  }
+  for (std::size_t i = 0; i < after.parent.size(); ++i) {  // where corners hang on edges too
+    const scene::SurfacePatch& patch = after.mesh.patches()[i];
+    const auto found =
+        after.mesh.locate({patch.surface, patch.side, 0, Vec2::Zero(), patch.centroid(), patch.normal()});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->element.value, i);
+  }
+}

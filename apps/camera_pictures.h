@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "core/image.h"
+#include "measure/method.h"
+#include "scene/scene.h"
+
+namespace interflect::apps {
+
+/// The camera of that name, the first where there is none.  @throws core::InputError  with the names known
+scene::CameraId camera_named(const scene::Scene& scene, const std::string& name);
+
+/// What a method sees through a camera, and how wrong it may be [W/(m² sr) | cd/m²]: the scene's channels.
+struct CameraPicture {
+  core::Image radiance, error;  ///< error: 95 %, noise and bound
+};
+CameraPicture picture_of(const measure::Method& method, const scene::Scene& scene, scene::CameraId camera, Run& run);
+
+/// The channels of a picture, then their errors under NAME.error: one EXR that says how sure it is.
+core::Image with_errors(const core::Image& radiance, const core::Image& error);
+
+}  // namespace interflect::apps

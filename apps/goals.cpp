@@ -1,0 +1,83 @@
+#include "apps/goals.h"
+
+#include "apps/table.h"
+#include "core/error.h"
+#include "core/format.h"
+
+namespace interflect::apps {
+namespace {
+
+constexpr const char* camera_prefix = "camera:";
+
+fem::Goal::AtPoints at_points(std::span<const measure::SensorPoint> points, const std::string& sensor) {
+  fem::Goal::AtPoints goal;
+  for (const measure::SensorPoint& point : points)
+    if (sensor.empty() || point.sensor == sensor) goal.points.push_back(point.at);
+  return goal;
+}
+
+std::string names_known(const scene::Scene& scene) {
+  std::string known;
+  for (const scene::Sensor& sensor : scene.sensors) known += sensor.name + ", ";
+  for (const scene::Camera& camera : scene.cameras) known += camera_prefix + camera.name + ", ";
+  return known + "or the name of a surface";
+}
+
+bool in_view(const fem::Goal& goal) { return std::holds_alternative<fem::Goal::InView>(goal.what); }
+
+}  // namespace
+
+fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::span<const measure::SensorPoint> points) {
+  if (name.empty() && points.empty())
+    throw core::InputError("--goal", "the scene has no sensor: " + names_known(scene) + " expected");
+  if (fem::Goal::AtPoints goal = at_points(points, name); !goal.points.empty())
+    return {name.empty() ? "sensors" : name, std::move(goal)};
+  if (name.rfind(camera_prefix, 0) == 0)
+    if (const auto camera = scene.find_camera(name.substr(std::string(camera_prefix).size())))
+      return {name, fem::Goal::InView{*camera}};
+  for (const scene::SurfaceId id : scene.surface_ids())
+    for (const scene::Side side : {scene::Side::front, scene::Side::back})
+      if (scene.material(id).active(side) && scene.side_name(id, side) == name)
+        return {name, fem::Goal::OnSurface{id, side}};
+  throw core::InputError("--goal " + name, "one of " + names_known(scene) + " expected");
+}
+
+std::string goal_line(const std::string& quantity, double value, double error, const char* unit) {
+  return core::format("%s = %.5g %s, error <= %.2g %s (estimated)", quantity.c_str(), value, unit, error, unit);
+}
+
+std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene) {
+  const bool pixels = in_view(adaptation.goal);
+  const char* unit = pixels ? scene.radiance_unit() : scene.irradiance_unit();
+  const std::string quantity = (pixels ? "L_avg(" : "E_avg(") + adaptation.goal.name + ")";
+  Table table({"pass", "elements", "unknowns", quantity, "error", "relative", "time"});
+  for (std::size_t k = 0; k < adaptation.passes.size(); ++k) {
+    const fem::AdaptivePass& pass = adaptation.passes[k];
+    table.add({std::to_string(k + 1), core::format("%td", pass.elements), core::format("%td", pass.unknowns),
+               core::format("%.6g", scene.weigh(pass.value)), core::format("%.2g", scene.weigh(pass.error)),
+               core::format("%.2g %%", 100 * pass.relative), core::format_duration(pass.seconds)});
+  }
+  const fem::AdaptivePass& last = adaptation.passes.back();
+  return table.text() + "stopped     " + describe(adaptation.why) + "\n" +
+         goal_line(quantity, scene.weigh(last.value), scene.weigh(last.error), unit) + "\n";
+}
+
+results::Record adaptation_record(const fem::Adaptation& adaptation, const scene::Scene& scene) {
+  results::Record::List passes;
+  for (const fem::AdaptivePass& pass : adaptation.passes)
+    passes.push_back(results::Record()
+                         .add("elements", static_cast<std::int64_t>(pass.elements))
+                         .add("unknowns", static_cast<std::int64_t>(pass.unknowns))
+                         .add("value", scene.weigh(pass.value))
+                         .add("error", scene.weigh(pass.error))
+                         .add("claim", "estimated")
+                         .add("relative_error", pass.relative)
+                         .add("seconds", pass.seconds));
+  results::Record record;
+  return record.add("goal", adaptation.goal.name)
+      .add("stopped", describe(adaptation.why))
+      .add("met", adaptation.why == fem::AdaptiveStop::met)
+      .add("passes", std::move(passes));
+}
+
+}  // namespace interflect::apps

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "fem/goal/adaptation.h"
+#include "measure/sensor_points.h"
+#include "results/record.h"
+#include "scene/scene.h"
+
+namespace interflect::apps {
+
+/// What elements shall be made for.
+/// @param name  of a sensor or of a side of a surface, "camera:NAME", or nothing: all sensors
+/// @throws core::InputError  with the names known
+fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::span<const measure::SensorPoint> points);
+
+/// How elements came about, as a table, and the goal: "E_avg(desk) = 312.4 lx, error <= 0.8 lx (estimated)".
+std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene);
+results::Record adaptation_record(const fem::Adaptation& adaptation, const scene::Scene& scene);
+
+/// "E_avg(desk) = 312.4 lx, error <= 0.8 lx (estimated)"
+std::string goal_line(const std::string& quantity, double value, double error, const char* unit);
+
+}  // namespace interflect::apps

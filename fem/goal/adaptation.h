@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/spectrum.h"
+#include "fem/goal/goal.h"
+
+namespace interflect::fem {
+
+/// What a solution shall be good for, and how good.
+struct AdaptiveSettings {
+  Goal goal;
+  double target = 0.01;  ///< error of the goal over its value; 0: elements are left as they are, and it is estimated
+  int most_passes = 30;
+};
+
+/// One mesh on the way.
+struct AdaptivePass {
+  Index elements, unknowns;
+  Spectrum value;       ///< of the goal
+  Spectrum correction;  ///< estimate of what it lacks
+  Spectrum error;       ///< estimated bound
+  double relative;      ///< the weighed error over the weighed value
+  double seconds;       ///< since the start
+};
+
+enum class AdaptiveStop { met, memory, passes, only_asked, no_light };
+std::string describe(AdaptiveStop why);
+
+/// How elements came about that were made for a goal; there is a pass at least.
+struct Adaptation {
+  Goal goal;
+  std::vector<AdaptivePass> passes;
+  AdaptiveStop why;
+};
+
+}  // namespace interflect::fem

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "core/spectrum.h"
+#include "fem/goal/goal.h"
+#include "fem/goal/iterated_transport.h"
+#include "solvers/solver.h"
+
+namespace interflect::fem {
+
+/// A solution of b = e + R T_h b on elements, T_h = G^-1 K, with polynomials of an order.
+struct ElementSystem {
+  const scene::Scene& scene;
+  const mesh::ElementMesh& mesh;
+  int order;                            ///< of the functions that K has; 0 .. 2
+  std::span<const int> degree;          ///< of elements, <= order: functions of higher ones are not reflected
+  const solvers::TransportOperator& K;  ///< of unknowns: functions of elements
+  const solvers::ColumnMatrix& R;       ///< reflectance of unknowns, per channel
+  const solvers::ColumnMatrix& e;
+};
+
+/// What a solution says of a goal, and what it may be wrong by.
+struct DualWeighted {
+  Spectrum value;                     ///< J(B_h)
+  Spectrum correction;                ///< J(B) - J(B_h), estimated
+  Spectrum by_importance;             ///< J(B_h) once more, by the importance: <z_h, e>
+  std::vector<Spectrum> of_elements;  ///< what elements add to the correction
+  std::vector<Spectrum> size;         ///< sqrt(int zeta² int r²) of elements: what a better mesh may change there
+  Spectrum residual;                  ///< sqrt(int r² / area): of the radiosity
+  Spectrum largest_residual;          ///< |r| at nodes
+};
+
+/// Dual-weighted residuals [Becker, Rannacher 2001], which for radiosity is importance [Smits, Arvo, Salesin 1992] with
+/// its error: the importance z of a goal solves the adjoint equation
+///
+///   z = c + T (s + R z),     J(B) = <z, E>,     J(B) - J(B_h) = <z, r>,     r = E + R T B_h - B_h
+///
+/// since T is its own adjoint.  B_h and z_h are of one system: with w = s + R z it is w = (s + R c) + R T w, radiosity
+/// from an exitance.  <z_h, r> = 0 as B_h is Galerkin's, so that
+///
+///   J(B) - J(B_h) = <z - z_h, r>  ~  <(T - T_h) w_h, r> + <c - c_h, r>,     r = R (T - T_h) B_h
+///
+/// with T B_h and T w_h at Gauss nodes of every element, past whatever hides (iterated_transport.h); c - c_h is of the
+/// functions of degree up to 3, since points and pixels have no density of their own.  The error of z in its place is
+/// one bounce of the importance's own residual, which is smaller as the iterated solution is than B_h.
+///
+/// @param b  the solution, unknowns x channels
+/// Test: tests/fem/goal/dual_weighted.cpp
+DualWeighted dual_weighted(const ElementSystem& system, solvers::ConstColumns b, const Goal& goal,
+                           const raycast::RayCaster& rays, const solvers::StoppingRule& stopping, Run& run);
+
+}  // namespace interflect::fem

@@ -1,0 +1,102 @@
+#include "fem/goal/adaptive_elements.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "mesh/uniform.h"
+#include "tests/fem/rooms.h"
+
+namespace interflect::fem {
+namespace {
+
+using test::Room;
+
+RadiositySettings settings_of(int order, double tolerance = 1e-4) {
+  RadiositySettings settings;
+  settings.order = order;
+  settings.form_factors = "analytic";
+  settings.quadrature_tolerance = tolerance;
+  return settings;
+}
+
+/// Two rooms with a door between them, one of which has a lit wall.
+scene::Scene two_rooms() {
+  Room room;
+  const double rho = .5;
+  room.wall({0, 0, 0}, {4, 0, 0}, {0, 2, 0}, 1, rho);       // floor
+  room.wall({0, 0, 1.5}, {0, 2, 0}, {4, 0, 0}, 1, rho);     // ceiling
+  room.wall({0, 0, 0}, {0, 0, 1.5}, {4, 0, 0}, 1, rho);     // y = 0
+  room.wall({0, 2, 0}, {4, 0, 0}, {0, 0, 1.5}, 1, rho);     // y = 2
+  room.wall({0, 0, 0}, {0, 2, 0}, {0, 0, 1.5}, 1, rho, 1);  // x = 0 shines
+  room.wall({4, 0, 0}, {0, 0, 1.5}, {0, 2, 0}, 1, rho);     // x = 4
+  room.box({1.9, .1, .1}, {.2, 1.2, 1.3}, 1, false, rho);   // what is between, but for 0.7 m and slits
+  return room.finish();
+}
+
+Goal far_plane() {
+  Goal::AtPoints points;
+  for (const double x : {2.5, 3.1, 3.7})
+    for (const double y : {.4, 1., 1.6}) points.points.push_back({{x, y, .5}, Vec3::UnitZ(), {}});
+  return {"far_plane", points};
+}
+
+// What stays is taken over, what is new is computed, and nothing is mixed up.
+TEST(AdaptiveElements, have_the_form_factors_that_they_would_have_alone) {
+  const scene::Scene scene = two_rooms();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  core::LocalRun run(1, 2);
+  for (const int order : {1, 2}) {
+    const RadiositySettings settings = settings_of(order);
+    const mesh::ElementMesh before = mesh::uniform(scene, 2.1);
+    const RadiosityOperator from = assemble_operator(scene, before.patches(), *rays, settings, run.get());
+    std::vector<bool> which(before.patches().size());
+    for (std::size_t i = 0; i < which.size(); i += 5) which[i] = true;
+    const mesh::PartlyQuartered refined = mesh::quartered(before, which);
+    std::vector<Index> same;
+    for (const std::size_t parent : refined.parent)
+      same.push_back(which[parent] ? Index{-1} : static_cast<Index>(parent));
+    const RadiosityOperator K = refined_operator(from, same, scene, refined.mesh.patches(), *rays, settings, run.get()),
+                            alone = assemble_operator(scene, refined.mesh.patches(), *rays, settings, run.get());
+    ASSERT_EQ(K.blocks->size(), alone.blocks->size());
+    for (Index a = 0; a < K.blocks->size(); ++a)
+      for (Index b = a; b < K.blocks->size(); ++b)
+        EXPECT_NEAR(K.blocks->entry(a, b), alone.blocks->entry(a, b), 2e-5) << a << ' ' << b;
+    const std::vector<double> sums = K.K->row_sums(run.get());
+    for (const double sum : sums) EXPECT_NEAR(sum, 1, 1e-4);
+  }
+}
+
+// The stated bound holds, against smaller elements of a higher order; and the elements are those of a few places.
+TEST(AdaptiveElements, meet_the_target) {
+  const scene::Scene scene = two_rooms();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  core::LocalRun run(1, 2);
+  const Adaptation truth = adapt_elements(scene, settings_of(2), {far_plane(), 1e-3}, *rays, run.get()).adaptation;
+  ASSERT_EQ(truth.why, AdaptiveStop::met);
+  const double value = truth.passes.back().value[0];
+  RadiositySettings coarse = settings_of(1);
+  coarse.element_size = 2.1;
+  const AdaptedElements made = adapt_elements(scene, coarse, {far_plane(), 5e-3}, *rays, run.get());
+  ASSERT_EQ(made.adaptation.why, AdaptiveStop::met);
+  EXPECT_GT(made.adaptation.passes.size(), 1u);
+  for (const AdaptivePass& pass : made.adaptation.passes)
+    EXPECT_LT(std::abs(pass.value[0] - value), pass.error[0] + truth.passes.back().error[0]) << pass.elements;
+}
+
+TEST(AdaptiveElements, say_why_they_stopped) {
+  const scene::Scene scene = two_rooms();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  core::LocalRun run(1, 2);
+  RadiositySettings settings = settings_of(1);
+  settings.element_size = 2.1;
+  EXPECT_EQ(adapt_elements(scene, settings, {far_plane(), 1e-9, 2}, *rays, run.get()).adaptation.why,
+            AdaptiveStop::passes);
+  settings.max_memory = 600e3;
+  EXPECT_EQ(adapt_elements(scene, settings, {far_plane(), 1e-9}, *rays, run.get()).adaptation.why,
+            AdaptiveStop::memory);
+  const Goal nowhere{"nowhere", Goal::AtPoints{{{{-1, 1, 1}, -Vec3::UnitX(), {}}}}};
+  EXPECT_THROW(adapt_elements(scene, settings, {nowhere, 1e-2}, *rays, run.get()), core::InputError);
+}
+
+}  // namespace
+}  // namespace interflect::fem
