@@ -26,37 +26,44 @@ double white_of(const SolvedScene& solved, std::span<const std::array<double, 3>
 }
 
 core::Image radiosity_picture(const visual::Display& display, const SolvedScene& solved, const Camera& camera,
-                              std::span<const double> shares) {
+                              std::span<const double> shares, const SmoothField* field) {
   std::vector<std::array<double, 3>> rgb;
   for (const Spectrum& B : solved.solution.radiosity) rgb.push_back(solved.scene.rgb(B * inv_pi));
-  return visual::true_colour(display, solved.scene, solved.solution.mesh, rgb,
-                             {.caption = {}, .white = white_of(solved, rgb, shares), .camera = camera});
+  const visual::TrueColour look{.caption = {}, .white = white_of(solved, rgb, shares), .camera = camera};
+  if (!field || !(look.white > 0)) return visual::true_colour(display, solved.scene, solved.solution.mesh, rgb, look);
+  std::vector<std::array<double, 3>> of_points;
+  for (const Spectrum& B : field->radiosity) of_points.push_back(solved.scene.rgb(B * inv_pi));
+  return visual::true_colour(display, solved.scene, solved.solution.mesh, field->mesh, of_points, look);
 }
 
 core::Image irradiance_picture(const visual::Display& display, const SolvedScene& solved, const Camera& camera,
-                               std::span<const double> shares) {
+                               std::span<const double> shares, const SmoothField* field) {
   std::vector<double> values;
   for (const Spectrum& H : solved.solution.irradiance) values.push_back(solved.scene.weigh(H));
   const bool photometric = solved.scene.quantity == scene::Quantity::photometric;
   const std::string title =
       std::string(photometric ? "illuminance [" : "irradiance [") + solved.scene.irradiance_unit() + "]";
-  return visual::false_colour(
-      display, solved.scene, solved.solution.mesh, values,
-      {.title = title, .caption = {}, .range = range_in_view(values, shares), .camera = camera});
+  const visual::FalseColour look{
+      .title = title, .caption = {}, .range = range_in_view(values, shares), .camera = camera};
+  if (!field) return visual::false_colour(display, solved.scene, solved.solution.mesh, values, look);
+  std::vector<double> of_points;
+  for (const Spectrum& H : field->irradiance) of_points.push_back(solved.scene.weigh(H));
+  return visual::false_colour(display, solved.scene, solved.solution.mesh, field->mesh, of_points, look);
 }
 
 }  // namespace
 
-void write_field_pictures(const SolvedScene& solved, const std::filesystem::path& folder) {
+void write_field_pictures(const SolvedScene& solved, const SmoothField* field, const std::filesystem::path& folder) {
   const auto display = display_or_warning();
   if (!display) return;
   std::vector<Camera> cameras(solved.scene.cameras.begin(), solved.scene.cameras.end());
   if (cameras.empty()) cameras.emplace_back();
   for (std::size_t k = 0; k < cameras.size(); ++k) {
     const std::vector<double> shares = shares_in_view(*solved.rays, solved.solution.mesh, cameras[k]);
-    results::write_png(folder / picture_file("radiosity", k), radiosity_picture(*display, solved, cameras[k], shares));
+    results::write_png(folder / picture_file("radiosity", k),
+                       radiosity_picture(*display, solved, cameras[k], shares, field));
     results::write_png(folder / picture_file("irradiance", k),
-                       irradiance_picture(*display, solved, cameras[k], shares));
+                       irradiance_picture(*display, solved, cameras[k], shares, field));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "apps/goals.h"
 #include "apps/read_scene.h"
+#include "apps/smooth_field.h"
 #include "apps/table.h"
 #include "core/build_info.h"
 #include "core/format.h"
@@ -199,13 +200,15 @@ void write_solution(const SolvedScene& solved, const SolveOptions& options, cons
   const RadiositySolution& s = solved.solution;
   const int channels = solved.scene.channel_count();
   results::write_vtu(options.out / "solution.vtu", s.mesh, fields_of(solved));
+  const auto field = smooth_field(s);
+  if (field) write_smooth_field(options.out / "solution_smooth.vtu", *field, solved.scene);
   results::write_surfaces_csv(
       options.out / "surfaces.csv",
       results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
   results::write_sensors_csv(options.out / "sensors.csv", solved.points, solved.at_points, channels);
   write_summary(solved, options, common, run);
 #ifdef INTERFLECT_WITH_VTK
-  if (options.pictures) write_field_pictures(solved, options.out);
+  if (options.pictures) write_field_pictures(solved, field ? &*field : nullptr, options.out);
 #endif
 }
 

@@ -16,7 +16,7 @@ namespace interflect::results {
 
 namespace {
 
-constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9;
+constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9, vtk_quadratic_triangle = 22;
 
 struct Grid {
   std::vector<double> points;
@@ -38,6 +38,17 @@ Grid grid_of(const mesh::ElementMesh& mesh) {
       grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
       grid.types.push_back(patch.corners == 3 ? vtk_triangle : vtk_quad);
     }
+  }
+  return grid;
+}
+
+Grid grid_of(const mesh::SmoothMesh& mesh) {
+  Grid grid;
+  for (const Vec3& p : mesh.points) grid.points.insert(grid.points.end(), p.begin(), p.end());
+  for (const mesh::SmoothMesh::Triangle& triangle : mesh.triangles) {
+    grid.connectivity.insert(grid.connectivity.end(), triangle.begin(), triangle.end());
+    grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+    grid.types.push_back(vtk_quadratic_triangle);
   }
   return grid;
 }
@@ -99,16 +110,35 @@ void append_array(std::string& out, const std::string& name, const std::vector<T
   out += " format=\"binary\">\n" + base64(bytes) + "\n</DataArray>\n";
 }
 
-void append_field(std::string& out, const CellField& field, std::size_t elements) {
+void append_field(std::string& out, const CellField& field, std::size_t count) {
   std::visit(
       [&](const auto& values) {
         const auto components = static_cast<std::size_t>(field.components);
-        if (field.components < 1 || values.size() != elements * components ||
+        if (field.components < 1 || values.size() != count * components ||
             (!field.component_names.empty() && field.component_names.size() != components))
           throw core::PreconditionError("vtu: field " + field.name + " does not fit the mesh");
         append_array(out, field.name, values, field.components, field.component_names);
       },
       field.values);
+}
+
+std::string text_of(const Grid& grid, std::span<const CellField> of_cells, std::span<const CellField> of_points) {
+  const std::size_t cells = grid.types.size(), points = grid.points.size() / 3;
+  std::string out =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<UnstructuredGrid>\n";
+  out += core::format("<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n<Points>\n", points, cells);
+  append_array(out, "Points", grid.points, 3);
+  out += "</Points>\n<Cells>\n";
+  append_array(out, "connectivity", grid.connectivity, 1);
+  append_array(out, "offsets", grid.offsets, 1);
+  append_array(out, "types", grid.types, 1);
+  out += "</Cells>\n<CellData>\n";
+  for (const CellField& field : of_cells) append_field(out, field, cells);
+  out += "</CellData>\n<PointData>\n";
+  for (const CellField& field : of_points) append_field(out, field, points);
+  return out + "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 }  // namespace
@@ -151,27 +181,20 @@ std::vector<CellField> id_fields(const mesh::ElementMesh& mesh) {
 }
 
 std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields) {
-  const Grid grid = grid_of(mesh);
-  const auto cells = static_cast<std::size_t>(mesh.size());
-  std::string out =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-      "<UnstructuredGrid>\n";
-  out +=
-      core::format("<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n<Points>\n", grid.points.size() / 3, cells);
-  append_array(out, "Points", grid.points, 3);
-  out += "</Points>\n<Cells>\n";
-  append_array(out, "connectivity", grid.connectivity, 1);
-  append_array(out, "offsets", grid.offsets, 1);
-  append_array(out, "types", grid.types, 1);
-  out += "</Cells>\n<CellData>\n";
-  for (const CellField& field : fields) append_field(out, field, cells);
-  out += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  return out;
+  return text_of(grid_of(mesh), fields, {});
+}
+
+std::string vtu_text(const mesh::SmoothMesh& mesh, std::span<const CellField> of_points) {
+  std::vector<std::int64_t> element(mesh.element.begin(), mesh.element.end());
+  const CellField of_cells{"element", std::move(element), 1, {}};
+  return text_of(grid_of(mesh), {&of_cells, 1}, of_points);
 }
 
 void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields) {
   write_atomically(file, vtu_text(mesh, fields));
+}
+void write_vtu(const std::filesystem::path& file, const mesh::SmoothMesh& mesh, std::span<const CellField> of_points) {
+  write_atomically(file, vtu_text(mesh, of_points));
 }
 
 }  // namespace interflect::results

@@ -10,15 +10,16 @@
 
 #include "core/spectrum.h"
 #include "mesh/element_mesh.h"
+#include "mesh/smooth_mesh.h"
 
 namespace interflect::results {
 
-/// Values of the elements of a mesh under one name.
+/// Values of the elements of a mesh, or of a smooth one's points, under one name.
 struct CellField {
   using Values = std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
   std::string name;
-  Values values;  ///< [element * components + component]
+  Values values;  ///< [element or point * components + component]
   int components = 1;
   std::vector<std::string> component_names;  ///< empty, or one a component
 };
@@ -34,6 +35,10 @@ std::vector<CellField> id_fields(const mesh::ElementMesh& mesh);
 /// @throws core::PreconditionError  if a field's size is not elements x components
 std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields);
 void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields);
+
+/// A smooth mesh as VTK's quadratic triangles with data at points, and the element of each.
+std::string vtu_text(const mesh::SmoothMesh& mesh, std::span<const CellField> of_points);
+void write_vtu(const std::filesystem::path& file, const mesh::SmoothMesh& mesh, std::span<const CellField> of_points);
 
 /// Base64 of RFC 4648, with padding.
 std::string base64(std::string_view bytes);

@@ -92,4 +92,33 @@ core::Image true_colour(const Display& display, const scene::Scene& scene, const
   return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
 }
 
+core::Image false_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                         const mesh::SmoothMesh& smooth, std::span<const double> of_points,
+                         const FalseColour& options) {
+  if (!options.range || of_points.size() != smooth.points.size())
+    throw core::PreconditionError("picture: a range, and one value per point expected");
+  Legend legend{with_squares(options.title), options.map, *options.range, false, false};
+  for (const double v : of_points) {
+    legend.open_above = legend.open_above || v > legend.range.high;
+    legend.open_below = legend.open_below || v < legend.range.low;
+  }
+  Raster raster;
+  raster.fronts =
+      curved(smooth, of_points, [&](double v) { return results::colour_of(options.map, legend.range.part(v)); });
+  set_view(raster, scene, mesh, options.camera, options.width, options.height, dark_back, white);
+  return framed(rasterised(display, raster), options.caption, &legend);
+}
+
+core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                        const mesh::SmoothMesh& smooth, std::span<const std::array<double, 3>> of_points,
+                        const TrueColour& options) {
+  if (!(options.white > 0) || of_points.size() != smooth.points.size())
+    throw core::PreconditionError("picture: a white, and one value per point expected");
+  Raster raster;
+  raster.fronts = curved(smooth, of_points, options.white);
+  set_view(raster, scene, mesh, options.camera, options.width, options.height, black, black);
+  const core::Image picture = rasterised(display, raster);
+  return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
+}
+
 }  // namespace interflect::visual

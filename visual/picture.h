@@ -7,6 +7,7 @@
 
 #include "core/image.h"
 #include "mesh/element_mesh.h"
+#include "mesh/smooth_mesh.h"
 #include "results/colour_map.h"
 #include "scene/scene.h"
 #include "visual/display.h"
@@ -34,6 +35,11 @@ struct FalseColour {
 core::Image false_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
                          std::span<const double> values, const FalseColour& options);
 
+/// The same of a continuous field, in colours that change inside elements; options have a range.
+/// @param of_points  one per point of `smooth`, which is made of the mesh
+core::Image false_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                         const mesh::SmoothMesh& smooth, std::span<const double> of_points, const FalseColour& options);
+
 /// What an eye would see, tone mapped as results::ToneMapping says.
 struct TrueColour {
   std::string caption;
@@ -46,5 +52,10 @@ struct TrueColour {
 /// @param rgb  linear red, green, blue per element, for instance scene.rgb(radiosity / pi)
 core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
                         std::span<const std::array<double, 3>> rgb, const TrueColour& options);
+
+/// The same of a continuous field; options have a white.
+core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                        const mesh::SmoothMesh& smooth, std::span<const std::array<double, 3>> of_points,
+                        const TrueColour& options);
 
 }  // namespace interflect::visual

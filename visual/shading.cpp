@@ -162,4 +162,63 @@ Polygons black_backs(const scene::Scene& scene, const mesh::ElementMesh& mesh, r
   return out;
 }
 
+namespace {
+
+/// What a quadratic triangle's six points are worth at the barycentric coordinates l.
+std::array<double, 6> quadratic(const std::array<double, 3>& l) {
+  std::array<double, 6> N{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    N[k] = l[k] * (2 * l[k] - 1);
+    N[3 + k] = 4 * l[k] * l[(k + 1) % 3];
+  }
+  return N;
+}
+
+/// @param colour_at  (triangle's points, what they are worth)
+template <class ColourAt>
+Polygons curved_by(const mesh::SmoothMesh& mesh, const ColourAt& colour_at) {
+  constexpr int parts = 4;  // of an edge
+  Polygons out;
+  for (const mesh::SmoothMesh::Triangle& t : mesh.triangles) {
+    const auto add = [&](std::array<std::array<int, 2>, 3> nodes) {
+      std::array<Vec3, 3> ring;
+      std::array<results::Colour, 3> colours;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double v = double(nodes[k][0]) / parts, w = double(nodes[k][1]) / parts;
+        const std::array<double, 3> l{1 - v - w, v, w};
+        ring[k] = l[0] * mesh.points[t[0]] + l[1] * mesh.points[t[1]] + l[2] * mesh.points[t[2]];
+        colours[k] = colour_at(t, quadratic(l));
+      }
+      out.add(ring, colours);
+    };
+    for (int i = 0; i < parts; ++i)
+      for (int j = 0; i + j < parts; ++j) {
+        add({{{i, j}, {i + 1, j}, {i, j + 1}}});
+        if (i + j + 1 < parts) add({{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}});
+      }
+  }
+  return out;
+}
+
+}  // namespace
+
+Polygons curved(const mesh::SmoothMesh& mesh, std::span<const Rgb> of_points, double white) {
+  return curved_by(mesh, [&](const mesh::SmoothMesh::Triangle& t, const std::array<double, 6>& N) {
+    Rgb value{};
+    for (std::size_t k = 0; k < 6; ++k)
+      for (std::size_t c = 0; c < 3; ++c) value[c] += N[k] * of_points[t[k]][c];
+    for (double& v : value) v = std::max(0.0, v);
+    return display_colour(value, white);
+  });
+}
+
+Polygons curved(const mesh::SmoothMesh& mesh, std::span<const double> of_points,
+                const std::function<results::Colour(double)>& colour) {
+  return curved_by(mesh, [&](const mesh::SmoothMesh::Triangle& t, const std::array<double, 6>& N) {
+    double value = 0;
+    for (std::size_t k = 0; k < 6; ++k) value += N[k] * of_points[t[k]];
+    return colour(value);
+  });
+}
+
 }  // namespace interflect::visual

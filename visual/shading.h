@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/vec.h"
 #include "mesh/element_mesh.h"
+#include "mesh/smooth_mesh.h"
 #include "results/colour_map.h"
 #include "scene/scene.h"
 
@@ -30,6 +32,12 @@ using Rgb = std::array<double, 3>;
 /// of what they vary and not below 0.  Neighbours share a corner and lie within 20 degrees of the same plane.  Each
 /// element becomes one triangle per edge.
 Polygons smooth(const mesh::ElementMesh& mesh, std::span<const Rgb> values, double white);
+
+/// Quadratic triangles as 16 flat ones each, in the colours of their values.
+/// @param of_points  one a point
+Polygons curved(const mesh::SmoothMesh& mesh, std::span<const Rgb> of_points, double white);
+Polygons curved(const mesh::SmoothMesh& mesh, std::span<const double> of_points,
+                const std::function<results::Colour(double)>& colour);
 
 /// sRGB of `value` / white, clipped.
 results::Colour display_colour(const Rgb& value, double white);
