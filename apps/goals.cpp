@@ -43,7 +43,9 @@ fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::sp
 }
 
 std::string goal_line(const std::string& quantity, double value, double error, const char* unit) {
-  return core::format("%s = %.5g %s, error <= %.2g %s (estimated)", quantity.c_str(), value, unit, error, unit);
+  const std::string part = value > 0 ? core::format("%.2g %%, ", 100 * error / value) : "";
+  return core::format("%s = %.5g %s, error <= %.2g %s (%sestimated)", quantity.c_str(), value, unit, error, unit,
+                      part.c_str());
 }
 
 std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene) {

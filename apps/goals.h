@@ -15,11 +15,11 @@ namespace interflect::apps {
 /// @throws core::InputError  with the names known
 fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::span<const measure::SensorPoint> points);
 
-/// How elements came about, as a table, and the goal: "E_avg(desk) = 312.4 lx, error <= 0.8 lx (estimated)".
+/// How elements came about, as a table, and the goal: "E_avg(desk) = 312.4 lx, error <= 0.8 lx (0.26 %, estimated)".
 std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene);
 results::Record adaptation_record(const fem::Adaptation& adaptation, const scene::Scene& scene);
 
-/// "E_avg(desk) = 312.4 lx, error <= 0.8 lx (estimated)"
+/// "E_avg(desk) = 312.4 lx, error <= 0.8 lx (0.26 %, estimated)"
 std::string goal_line(const std::string& quantity, double value, double error, const char* unit);
 
 }  // namespace interflect::apps

@@ -100,12 +100,16 @@ std::string matrix_text(const RadiositySolution& s) {
 std::string sensors_text(const SolvedScene& solved) {
   if (solved.points.empty()) return "";
   const std::string unit = solved.scene.irradiance_unit();
-  Table table({"sensor", "points", "min " + unit, "mean " + unit, "max " + unit, "U0", "error of mean"});
-  for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points))
+  const fem::Goal* goal = solved.solution.adaptation ? &solved.solution.adaptation->goal : nullptr;
+  Table table({"sensor", "points", "min " + unit, "mean " + unit, "max " + unit, "U0"});
+  std::string means;
+  for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points)) {
     table.add({s.sensor, std::to_string(s.points), core::format("%.4g", s.minimum), core::format("%.5g", s.mean),
-               core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity()),
-               core::format("%.2g (%s, estimated)", s.error, core::format_percent(s.error / s.mean).c_str())});
-  return "\n" + table.text();
+               core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity())});
+    if (goal && goal->name == s.sensor) continue;  // which is known better (adaptation_text)
+    means += goal_line("E_avg(" + s.sensor + ")", s.mean, s.error, unit.c_str()) + "\n";
+  }
+  return "\n" + table.text() + "\n" + means;
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ DualWeighted estimate(const scene::Scene& scene, const mesh::ElementMesh& mesh, 
   const solvers::Reflection reflection(R);
   solvers::make_solver(settings.solver)->advance({*from.blocks, reflection, e}, state, settings.stopping, run);
   run.throw_if_stopped("solve");
-  return dual_weighted({scene, mesh, settings.order, degree, *from.blocks, R, e}, state.x, goal, rays,
-                       settings.stopping, run);
+  return dual_weighted({scene, mesh, settings.order, degree, *from.blocks, R, e, settings.quadrature_tolerance},
+                       state.x, goal, rays, settings.stopping, run);
 }
 
 /// Doerfler's marking: the fewest elements that together have a share of all.
@@ -85,7 +85,7 @@ std::vector<Index> same_as(const mesh::PartlyQuartered& refined, const std::vect
 Spectrum bound_of(const DualWeighted& found) {
   Spectrum sizes;
   for (const Spectrum& eta : found.of_elements) sizes += abs(eta);
-  return missed * abs(found.correction) + cancelling_share * sizes;
+  return missed * abs(found.correction) + cancelling_share * sizes + found.quadrature;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct AdaptedElements {
 /// Starts with coarse elements of polynomials and, pass after pass, cuts those into four that make most of what the
 /// dual-weighted residual finds, until
 ///
-///   2 |sum_i eta_i| + 1/10 sum_i |eta_i|  <=  target J
+///   2 |sum_i eta_i| + 1/10 sum_i |eta_i| + what K's errors do  <=  target J
 ///
 /// which is the stated bound: nodes miss up to half of what is rough along edges, and eta_i may cancel by chance.
 ///

@@ -1,5 +1,7 @@
 #include "fem/goal/dual_weighted.h"
 
+#include <cmath>
+
 #include "core/error.h"
 #include "fem/columns.h"
 #include "fem/space/plane_basis.h"
@@ -65,6 +67,20 @@ class Estimator {
         sum += (direct(i, a) + gram(u) * h_w.row(u).array()).matrix().cwiseProduct(system_.e.row(u));
       }
     return spectrum_of(sum);
+  }
+
+  /// Of K's entries of constants, pair by pair.
+  Spectrum quadrature(const ColumnMatrix& b, const ColumnMatrix& w, const Run& run) const {
+    Spectrum out;
+    for (Index c = 0; c < b.cols(); ++c) {
+      const double sum = system_.K.sum_over_entries(run, [&](Index i, Index j, double K) {
+        if (i % functions_ != 0 || j % functions_ != 0) return 0.0;
+        const double change = (w(i, c) * b(j, c) + w(j, c) * b(i, c)) * K;
+        return 0.5 * change * change;  // pairs are visited as two entries
+      });
+      out[static_cast<int>(c)] = system_.tolerance * std::sqrt(sum);
+    }
+    return out;
   }
 
   /// @param h     [G^-1 K b, G^-1 K w]
@@ -137,6 +153,7 @@ DualWeighted dual_weighted(const ElementSystem& system, solvers::ConstColumns b,
   DualWeighted out;
   out.value = estimator.value(b, h.leftCols(channels));
   out.by_importance = estimator.by_importance(h.rightCols(channels));
+  out.quadrature = estimator.quadrature(both.leftCols(channels), both.rightCols(channels), run);
   constexpr double accuracy = 1e-5;  // far below what elements lack, wherever it matters
   const PointViewFactors factors(system.scene, system.mesh.patches(), system.order, accuracy);
   const ElementNodes nodes = element_nodes(system.mesh.patches(), rich + 1);

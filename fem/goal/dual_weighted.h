@@ -5,6 +5,7 @@
 #include "core/spectrum.h"
 #include "fem/goal/goal.h"
 #include "fem/goal/iterated_transport.h"
+#include "fem/operator/symmetric_operator.h"
 #include "solvers/solver.h"
 
 namespace interflect::fem {
@@ -13,11 +14,12 @@ namespace interflect::fem {
 struct ElementSystem {
   const scene::Scene& scene;
   const mesh::ElementMesh& mesh;
-  int order;                            ///< of the functions that K has; 0 .. 2
-  std::span<const int> degree;          ///< of elements, <= order: functions of higher ones are not reflected
-  const solvers::TransportOperator& K;  ///< of unknowns: functions of elements
-  const solvers::ColumnMatrix& R;       ///< reflectance of unknowns, per channel
+  int order;                       ///< of the functions that K has; 0 .. 2
+  std::span<const int> degree;     ///< of elements, <= order: functions of higher ones are not reflected
+  const SymmetricOperator& K;      ///< of unknowns: functions of elements
+  const solvers::ColumnMatrix& R;  ///< reflectance of unknowns, per channel
   const solvers::ColumnMatrix& e;
+  double tolerance = 0;  ///< relative, of K's entries
 };
 
 /// What a solution says of a goal, and what it may be wrong by.
@@ -27,6 +29,7 @@ struct DualWeighted {
   Spectrum by_importance;             ///< J(B_h) once more, by the importance: <z_h, e>
   std::vector<Spectrum> of_elements;  ///< what elements add to the correction
   std::vector<Spectrum> size;         ///< sqrt(int zeta² int r²) of elements: what a better mesh may change there
+  Spectrum quadrature;                ///< what K's own errors do to it: root of the sum of squares
   Spectrum residual;                  ///< sqrt(int r² / area): of the radiosity
   Spectrum largest_residual;          ///< |r| at nodes
 };
@@ -44,6 +47,10 @@ struct DualWeighted {
 /// with T B_h and T w_h at Gauss nodes of every element, past whatever hides (iterated_transport.h); c - c_h is of the
 /// functions of degree up to 3, since points and pixels have no density of their own.  The error of z in its place is
 /// one bounce of the importance's own residual, which is smaller as the iterated solution is than B_h.
+///
+/// K's entries are off by up to `tolerance` of them, each in its own way:
+///
+///   J = <z, e>,   dJ = sum_ab w_a dK_ab b_b   ~   tolerance sqrt(sum_{a<b} (w_a b_b + w_b b_a)² K_ab²)     [constants alone]
 ///
 /// @param b  the solution, unknowns x channels
 /// Test: tests/fem/goal/dual_weighted.cpp
