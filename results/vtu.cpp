@@ -136,9 +136,11 @@ std::string text_of(const Grid& grid, std::span<const CellField> of_cells, std::
   append_array(out, "types", grid.types, 1);
   out += "</Cells>\n<CellData>\n";
   for (const CellField& field : of_cells) append_field(out, field, cells);
-  out += "</CellData>\n<PointData>\n";
+  out += "</CellData>\n";
+  if (!of_points.empty()) out += "<PointData>\n";
   for (const CellField& field : of_points) append_field(out, field, points);
-  return out + "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  if (!of_points.empty()) out += "</PointData>\n";
+  return out + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 }  // namespace

@@ -76,3 +76,17 @@ TEST(Vtu, is_well_formed_and_its_arrays_have_the_right_sizes) {
 TEST(Vtu, a_field_that_does_not_fit_the_mesh_is_refused) {
   EXPECT_THROW(vtu_text(tiny::mesh(), std::vector{scalar_field("error", {1, 2})}), core::PreconditionError);
 }
+
+// Two quads and a triangle are 4 + 4 + 3 quadratic triangles, with values at points.
+TEST(Vtu, of_a_smooth_mesh_has_quadratic_triangles_and_values_at_points) {
+  const mesh::SmoothMesh smooth = mesh::smooth_mesh(tiny::mesh());
+  std::vector<double> heights;
+  for (const Vec3& p : smooth.points) heights.push_back(p.z());
+  const CellField field = scalar_field("height", heights);
+  const std::string xml = vtu_text(smooth, {&field, 1});
+  EXPECT_EQ(well_formed(xml), 7 + 4 + 2);  // elements of the frame, of the grid, of the data
+  EXPECT_EQ(values<std::uint8_t>(xml, "types"), std::vector<std::uint8_t>(11, 22));
+  EXPECT_EQ(values<std::int64_t>(xml, "connectivity").size(), 66u);
+  EXPECT_EQ(values<double>(xml, "height"), heights);
+  EXPECT_EQ(values<std::int64_t>(xml, "element"), (std::vector<std::int64_t>{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2}));
+}
