@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "tests/fem/rooms.h"
 
@@ -49,7 +51,10 @@ Trial trial(AgainPart part, double relative_factor = 1) {
     return std::make_unique<Slow>(relative_factor * relative, room.patches[0].area, room.patches.size());
   };
   core::LocalRun run(1, 2);
-  return {seconds_of_later_passes(make, tolerance, room.patches, part, run.get()), n * n * seconds_a_pair};
+  double least = std::numeric_limits<double>::infinity();  // of three: other work on the machine only adds
+  for (int k = 0; k < 3; ++k)
+    least = std::min(least, seconds_of_later_passes(make, tolerance, room.patches, part, run.get()));
+  return {least, n * n * seconds_a_pair};
 }
 
 // Pairs that two rows share are done once where whole rows are done, and half of the pairs, but twice, by entries.  The
