@@ -60,7 +60,9 @@ TEST(Quartered, in_part_keeps_order_area_and_every_point) {
   std::vector<int> children(which.size());
   for (std::size_t i = 0; i < after.parent.size(); ++i) {
     const std::size_t parent = after.parent[i];
-    if (i > 0) EXPECT_LE(after.parent[i - 1], parent);
+    if (i > 0) {
+      EXPECT_LE(after.parent[i - 1], parent);
+    }
     area[parent] += after.mesh.patches()[i].area;
     ++children[parent];
     EXPECT_EQ(after.mesh.patches()[i].surface, before.patches()[parent].surface);

@@ -53,7 +53,9 @@ TEST(DisplayedField, has_the_order_of_its_polynomials) {
       std::vector<bool> which(coarse.patches().size());
       for (std::size_t i = 0; i < which.size(); i += 3) which[i] = true;
       const double now = distance(mesh::quartered(coarse, which).mesh, order);
-      if (before > 0) EXPECT_GT(std::log2(before / now), order + 1 - .2) << order << ' ' << size << ' ' << now;
+      if (before > 0) {
+        EXPECT_GT(std::log2(before / now), order + 1 - .2) << order << ' ' << size << ' ' << now;
+      }
       before = now;
     }
   }
