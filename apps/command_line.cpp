@@ -127,18 +127,18 @@ void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
   CLI::Option* method = command.add_option("--form-factors", s.form_factors, "Form-factor method")
                             ->check(CLI::IsMember(fem::form_factor_names()))
                             ->capture_default_str();
-  command
-      .add_option_function<int>(
-          "--order",
-          [&s, method](int order) {
-            s.order = order;
-            if (order > 0 && method->empty()) s.form_factors = "analytic";
-          },
-          "Degree of the polynomials on an element; from 1 on with form factors by analytic")
-      ->check(CLI::Range(0, 3))
-      ->default_str("0");
-  const auto polynomials = [&s, method] {
-    s.order = std::max(s.order, 1);
+  CLI::Option* order_given = command
+                                 .add_option_function<int>(
+                                     "--order",
+                                     [&s, method](int order) {
+                                       s.order = order;
+                                       if (order > 0 && method->empty()) s.form_factors = "analytic";
+                                     },
+                                     "Degree of the polynomials on an element; from 1 on with form factors by analytic")
+                                 ->check(CLI::Range(0, 3))
+                                 ->default_str("0");
+  const auto polynomials = [&s, method, order_given] {
+    if (order_given->empty()) s.order = 1;
     if (method->empty()) s.form_factors = "analytic";
   };
   command

@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
+#include "apps/read_scene.h"
 #include "apps/solution_files.h"
 #include "core/format.h"
 #include "results/image_file.h"
@@ -45,11 +45,12 @@ results::Record record_of(const Rendered& r) {
 ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run& run) {
   if (options.solve.forecast_only) return print_forecast(options.solve, common, run);
   results::require_image_extension(options.image);
+  scene::Scene read = read_and_note(options.solve.scene);
+  const scene::CameraId camera = camera_named(read, options.camera);  // before the work
   SolveOptions of_solve = options.solve;
   of_solve.out = options.image.has_parent_path() ? options.image.parent_path() : ".";
-  const auto solved = solve_scene(of_solve, common, run);
+  const auto solved = solve_scene(std::move(read), of_solve, common, run);
   const scene::Scene& scene = solved->scene;
-  const scene::CameraId camera = camera_named(scene, options.camera);
   const int side = static_cast<int>(std::lround(std::sqrt(options.rays)));
   const CameraPicture picture =
       picture_of(fem::RadiosityMethod(solved->solution, *solved->rays, {side, options.gather}), scene, camera, run);

@@ -8,7 +8,7 @@ namespace interflect::apps {
 
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run) {
   if (options.forecast_only) return print_forecast(options, common, run);
-  const auto solved = solve_scene(options, common, run);
+  const auto solved = solve_scene(read_and_note(options.scene), options, common, run);
   write_solution(*solved, options, common, run);
   if (common.json)
     std::printf("%s\n", results::json_text(summary_record(*solved, options, common, run)).c_str());

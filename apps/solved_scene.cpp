@@ -106,8 +106,8 @@ ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& comm
   return success;
 }
 
-std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run) {
-  scene::Scene scene = read_and_note(options.scene);
+std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions& options, const CommonOptions& common,
+                                         Run& run) {
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
   fem::RadiositySettings settings = options.settings;
   if (options.target_error > 0 || !options.goal.empty())

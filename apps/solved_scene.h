@@ -36,10 +36,10 @@ struct SolvedScene {
   fem::RadiosityMethod method() const { return {solution, *rays}; }
 };
 
-/// What a solution fell short of: the tolerance of its rows, that of the solver.
 /// What a solution's energy balance shows to be odd, in sentences: flux on black backs, beyond the noise of the rays that
 /// found it, and form factors and rays that disagree.
 std::vector<std::string> energy_warnings(const scene::Scene& scene, const fem::RadiositySolution& solution);
+/// What a solution fell short of: the tolerance of its rows, that of the solver, that of its goal.
 std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, const fem::RadiositySettings& settings);
 
 /// "5 000 elements, 0.2 GB, about 40 s"
@@ -49,8 +49,9 @@ results::Record forecast_record(const fem::Forecast& forecast);
 /// With --forecast, what the solve will need is the result.
 ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run);
 
-/// Reads, forecasts, prepares the output folder, solves, answers the sensors, and warns of what the solution shows.
+/// Forecasts, prepares the output folder, solves, answers the sensors, and warns of what the solution shows.
 /// @throws core::InputError, core::Interrupted
-std::unique_ptr<SolvedScene> solve_scene(const SolveOptions& options, const CommonOptions& common, Run& run);
+std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions& options, const CommonOptions& common,
+                                         Run& run);
 
 }  // namespace interflect::apps

@@ -128,7 +128,7 @@ std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOpt
 
 ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run) {
   if (options.solve.forecast_only) return print_forecast(options, common, run);
-  const auto solved = solve_scene(options.solve, common, run);
+  const auto solved = solve_scene(read_and_note(options.solve.scene), options.solve, common, run);
   write_solution(*solved, options.solve, common, run);
   const bool talk = !common.json && !common.quiet;
   if (talk) std::printf("%s", solution_text(*solved).c_str());

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "core/error.h"
-#include "core/log.h"
 #include "core/seconds_since.h"
 #include "fem/columns.h"
 #include "fem/space/polynomials.h"
@@ -51,10 +51,11 @@ DualWeighted estimate(const scene::Scene& scene, const mesh::ElementMesh& mesh, 
   const std::vector<int> degree(mesh.patches().size(), settings.order);
   solvers::SolverState state{e, 0};
   const solvers::Reflection reflection(R);
-  solvers::make_solver(settings.solver)->advance({*from.blocks, reflection, e}, state, settings.stopping, run);
+  const auto solver = solvers::make_solver(settings.solver);
+  solver->advance({*from.blocks, reflection, e}, state, settings.stopping, run);
   run.throw_if_stopped("solve");
   return dual_weighted({scene, mesh, settings.order, degree, *from.blocks, R, e, settings.quadrature_tolerance},
-                       state.x, goal, rays, settings.stopping, run);
+                       state.x, goal, rays, *solver, settings.stopping, run);
 }
 
 /// Doerfler's marking: the fewest elements that together have a share of all.
@@ -88,6 +89,14 @@ Spectrum bound_of(const DualWeighted& found) {
   return missed * abs(found.correction) + cancelling_share * sizes + found.quadrature;
 }
 
+std::optional<AdaptiveStop> reason_to_stop(double value, double error, int pass, const AdaptiveSettings& adaptive) {
+  if (!(value > 0)) return AdaptiveStop::no_light;
+  if (!(adaptive.target > 0)) return AdaptiveStop::only_asked;
+  if (error <= adaptive.target * value) return AdaptiveStop::met;
+  if (pass == adaptive.most_passes) return AdaptiveStop::passes;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string describe(AdaptiveStop why) {
@@ -113,7 +122,6 @@ AdaptedElements adapt_elements(const scene::Scene& scene, const RadiositySetting
   if (first.size() == 0) throw core::InputError("the scene has no surface that light could leave");
   RadiosityOperator from = assemble_operator(scene, first.patches(), rays, settings, run);
   AdaptedElements out{std::move(first), std::move(from), {adaptive.goal, {}, AdaptiveStop::passes}};
-  AdaptiveStop& why = out.adaptation.why;
   for (int pass = 1;; ++pass) {
     const DualWeighted found = estimate(scene, out.mesh, out.from, settings, adaptive.goal, rays, run);
     const Spectrum bound = bound_of(found);
@@ -121,19 +129,15 @@ AdaptedElements adapt_elements(const scene::Scene& scene, const RadiositySetting
     out.adaptation.passes.push_back({out.mesh.size(), out.mesh.size() * plane_functions(settings.order), found.value,
                                      found.correction, bound, value > 0 ? error / value : 0.0,
                                      core::seconds_since(start)});
-    const bool met = error <= adaptive.target * value;
-    if (!(value > 0) || met || !(adaptive.target > 0) || pass == adaptive.most_passes) {
-      why = !(value > 0)             ? AdaptiveStop::no_light
-            : !(adaptive.target > 0) ? AdaptiveStop::only_asked
-            : met                    ? AdaptiveStop::met
-                                     : AdaptiveStop::passes;
+    if (const auto stop = reason_to_stop(value, error, pass, adaptive)) {
+      out.adaptation.why = *stop;
       return out;
     }
     const std::vector<bool> which = marked(scene, found);
     mesh::PartlyQuartered refined = mesh::quartered(out.mesh, which);
     const double both = std::hypot(static_cast<double>(refined.mesh.size()), static_cast<double>(out.mesh.size()));
     if (!fits_memory(both, settings, FormFactorMethod::Granularity::pair)) {
-      why = AdaptiveStop::memory;
+      out.adaptation.why = AdaptiveStop::memory;
       return out;
     }
     out.from = refined_operator(out.from, same_as(refined, which), scene, refined.mesh.patches(), rays, settings, run);

@@ -34,7 +34,8 @@ class Estimator {
         rich_functions_(plane_functions(weights_.order)) {}
 
   /// w = (s + R G^-1 c) + R T_h w.
-  ColumnMatrix importance(const solvers::StoppingRule& stopping, Run& run) const {
+  ColumnMatrix importance(const solvers::RadiositySolver& solver, const solvers::StoppingRule& stopping,
+                          Run& run) const {
     ColumnMatrix e = ColumnMatrix::Zero(system_.e.rows(), system_.e.cols());
     for (Index i = 0; i < system_.mesh.size(); ++i)
       for (Index a = 0; a < functions_; ++a) {
@@ -44,7 +45,8 @@ class Estimator {
       }
     const solvers::Reflection R(system_.R);
     solvers::SolverState state{e, 0};
-    solvers::make_solver("gauss-seidel")->advance({system_.K, R, e}, state, stopping, run);
+    solver.advance({system_.K, R, e}, state, stopping, run);
+    run.throw_if_stopped("importance");
     return std::move(state.x);
   }
 
@@ -142,13 +144,14 @@ class Estimator {
 }  // namespace
 
 DualWeighted dual_weighted(const ElementSystem& system, solvers::ConstColumns b, const Goal& goal,
-                           const raycast::RayCaster& rays, const solvers::StoppingRule& stopping, Run& run) {
+                           const raycast::RayCaster& rays, const solvers::RadiositySolver& solver,
+                           const solvers::StoppingRule& stopping, Run& run) {
   constexpr int rich = ElementBasis::highest_order;
   if (system.order >= rich) throw core::PreconditionError("dual_weighted: an order of 0 .. 2 expected");
   const Estimator estimator(system, weights_of(goal, system.scene, system.mesh, rays, rich, run));
   const Index channels = b.cols();
   ColumnMatrix both(b.rows(), 2 * channels);
-  both << b, estimator.importance(stopping, run);
+  both << b, estimator.importance(solver, stopping, run);
   const ColumnMatrix h = arriving(system, both, run);
   DualWeighted out;
   out.value = estimator.value(b, h.leftCols(channels));

@@ -55,6 +55,7 @@ struct DualWeighted {
 /// @param b  the solution, unknowns x channels
 /// Test: tests/fem/goal/dual_weighted.cpp
 DualWeighted dual_weighted(const ElementSystem& system, solvers::ConstColumns b, const Goal& goal,
-                           const raycast::RayCaster& rays, const solvers::StoppingRule& stopping, Run& run);
+                           const raycast::RayCaster& rays, const solvers::RadiositySolver& solver,
+                           const solvers::StoppingRule& stopping, Run& run);
 
 }  // namespace interflect::fem

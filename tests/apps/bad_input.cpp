@@ -56,6 +56,8 @@ TEST(BadInput, goals_that_are_none) {
   expect_refused({"solve", scene, "-o", "x", "--goal", "camera:nowhere"}, "--goal camera:nowhere");
   expect_refused({"solve", scene, "-o", "x", "--target-error", "2"}, "--target-error");
   expect_refused({"solve", scene, "-o", "x", "--goal", "floor", "--order", "3"}, "order 1 or 2");
+  expect_refused({"solve", scene, "-o", "x", "--goal", "floor", "--order", "0"}, "order 1 or 2");
+  expect_refused({"render", scene, "-o", "x.png", "--camera", "nowhere"}, "--camera nowhere");
 }
 
 TEST(BadInput, settings_that_the_method_has_not) {

@@ -87,8 +87,9 @@ TEST(DualWeighted, finds_the_goal_by_importance_alone) {
       settings.element_size = 1.1;
       const Solved s = solved(scene, settings, run.get());
       for (const Goal& goal : goals_in(scene)) {
-        const DualWeighted found = dual_weighted({scene, s.mesh, order, s.degree, *s.from.blocks, s.R, s.e}, s.b, goal,
-                                                 *rays, settings.stopping, run.get());
+        const DualWeighted found =
+            dual_weighted({scene, s.mesh, order, s.degree, *s.from.blocks, s.R, s.e}, s.b, goal, *rays,
+                          *solvers::make_solver("gauss-seidel"), settings.stopping, run.get());
         EXPECT_GT(found.value[0], 0);
         EXPECT_NEAR(found.by_importance[0], found.value[0], 1e-12 * found.value[0]) << goal.name;
         Spectrum sum;
@@ -104,8 +105,8 @@ DualWeighted found(const scene::Scene& scene, const Goal& goal, int order, doubl
   RadiositySettings settings = settings_of(order, 1e-5);
   settings.element_size = element_size;
   const Solved s = solved(scene, settings, run.get());
-  return dual_weighted({scene, s.mesh, order, s.degree, *s.from.blocks, s.R, s.e}, s.b, goal, *rays, settings.stopping,
-                       run.get());
+  return dual_weighted({scene, s.mesh, order, s.degree, *s.from.blocks, s.R, s.e}, s.b, goal, *rays,
+                       *solvers::make_solver("gauss-seidel"), settings.stopping, run.get());
 }
 
 // Held against order 2 on smaller elements: estimate over error is between 0.5 and 3 in nine of ten.
