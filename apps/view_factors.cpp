@@ -197,6 +197,7 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
     if (options.forecast_only) return print_forecast(forecast, common.json);
     std::printf("%s\n", text_of(forecast).c_str());
     std::fflush(stdout);
+    run.progress.expect(std::min(forecast.seconds, 1e8));  // all passes of rows, not the one that is on
   }
   const std::filesystem::path folder = options.out.parent_path();
   const results::OutputDirectory made(folder.empty() ? "." : folder);

@@ -46,7 +46,8 @@ void Progress::Stage::advance(std::uint64_t units) {
 void Progress::report(Stage& stage, std::uint64_t done) {
   const double part = std::min(1.0, static_cast<double>(done) / static_cast<double>(stage.total_));
   const double elapsed = std::chrono::duration<double>(Stage::Clock::now() - stage.start_).count();
-  const std::string left = format_duration(part > 0 ? elapsed * (1 - part) / part : 0);
+  const double of_all = std::chrono::duration<double>(expected_end_ - Stage::Clock::now()).count();
+  const std::string left = format_duration(std::max(part > 0 ? elapsed * (1 - part) / part : 0, of_all));
   const std::scoped_lock lock(printing_);
   stage.shown_ = true;
   if (style_ == Style::bar) {

@@ -20,6 +20,12 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// How long all stages from now on will take together [s], as far as is known: what is left is counted from that too.
+  void expect(double seconds) {
+    expected_end_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                           std::chrono::duration<double>(seconds));
+  }
+
   /// One stage of work; ends with its scope.  `advance` may be called by any thread.
   class Stage {
    public:
@@ -45,6 +51,7 @@ class Progress {
   void report(Stage& stage, std::uint64_t done);
 
   Style style_;
+  std::chrono::steady_clock::time_point expected_end_{};  ///< set before stages begin
   std::mutex printing_;
 };
 
