@@ -39,7 +39,11 @@ PlaneBasis::PlaneBasis(int order, std::span<const Vec3> ring, const Vec3& normal
     basis.at(node.u, node.v, out);
     values.row(k++) = Eigen::Map<const Eigen::RowVectorXd>(out.data(), n);
   }
-  coefficients_ = powers.colPivHouseholderQr().solve(values).transpose();
+  // Powers across a slender element are small beside those along it: without scales they would be taken for dependent.
+  const Eigen::VectorXd scale = powers.colwise().norm().cwiseInverse();
+  powers = powers * scale.asDiagonal();
+  const Eigen::MatrixXd solved = powers.colPivHouseholderQr().solve(values);
+  coefficients_ = (scale.asDiagonal() * solved).transpose();
   largest_ = 1;
   for (const Vec3& x : ring) largest_ = std::max(largest_, at(x).cwiseAbs().maxCoeff());
 }
