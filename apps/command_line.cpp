@@ -213,6 +213,8 @@ void add_solve(CLI::App& app, Command& chosen) {
   add_scene(*command, options->scene);
   add_radiosity(*command, *options, add_folder(*command, options->out));
   add_no_pictures(*command, options->pictures);
+  command->add_flag("--bounds", options->bounds,
+                    "Prove bounds of every number too, element by element and at sensors (docs/bounds.md)");
 }
 
 void add_validate(CLI::App& app, Command& chosen) {

@@ -5,6 +5,7 @@
 #include "apps/display_or_warning.h"
 #include "apps/in_view.h"
 #include "apps/pictures.h"
+#include "apps/proved_bounds.h"
 #include "results/image_file.h"
 #include "results/tone_mapping.h"
 #include "visual/picture.h"
@@ -51,6 +52,20 @@ core::Image irradiance_picture(const visual::Display& display, const SolvedScene
   return visual::false_colour(display, solved.scene, solved.solution.mesh, field->mesh, of_points, look);
 }
 
+/// How far elements' mean irradiance may be off, as a part of it: proved.
+core::Image bounds_picture(const visual::Display& display, const SolvedScene& solved, const Camera& camera,
+                           std::span<const double> shares) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < solved.solution.irradiance.size(); ++i) {
+    const Interval& H = solved.bounds->enclosure.mean_irradiance()[i];
+    const double middle = solved.scene.weigh(H.lower + H.upper), width = solved.scene.weigh(H.upper - H.lower);
+    values.push_back(middle > 0 ? 100 * width / middle : 0);
+  }
+  const visual::FalseColour look{
+      .title = "irradiance known within [%]", .caption = {}, .range = range_in_view(values, shares), .camera = camera};
+  return visual::false_colour(display, solved.scene, solved.solution.mesh, values, look);
+}
+
 }  // namespace
 
 void write_field_pictures(const SolvedScene& solved, const SmoothField* field, const std::filesystem::path& folder) {
@@ -64,6 +79,8 @@ void write_field_pictures(const SolvedScene& solved, const SmoothField* field, c
                        radiosity_picture(*display, solved, cameras[k], shares, field));
     results::write_png(folder / picture_file("irradiance", k),
                        irradiance_picture(*display, solved, cameras[k], shares, field));
+    if (solved.bounds)
+      results::write_png(folder / picture_file("bounds", k), bounds_picture(*display, solved, cameras[k], shares));
   }
 }
 

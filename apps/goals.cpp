@@ -42,10 +42,13 @@ fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::sp
   throw core::InputError("--goal " + name, "one of " + names_known(scene) + " expected");
 }
 
-std::string goal_line(const std::string& quantity, double value, double error, const char* unit) {
-  const std::string part = value > 0 ? core::format("%.2g %%, ", 100 * error / value) : "";
-  return core::format("%s = %.5g %s, error <= %.2g %s (%sestimated)", quantity.c_str(), value, unit, error, unit,
-                      part.c_str());
+std::string goal_line(const std::string& quantity, double value, double error, const char* unit,
+                      std::optional<double> proved) {
+  const double bound = proved.value_or(error);
+  const std::string part = value > 0 ? core::format("%.2g %%, ", 100 * bound / value) : "";
+  const std::string claim = proved ? core::format("guaranteed; estimated %.2g", error) : "estimated";
+  return core::format("%s = %.5g %s, error <= %.2g %s (%s%s)", quantity.c_str(), value, unit, bound, unit, part.c_str(),
+                      claim.c_str());
 }
 
 std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene) {

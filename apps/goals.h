@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -19,7 +20,9 @@ fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::sp
 std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene);
 results::Record adaptation_record(const fem::Adaptation& adaptation, const scene::Scene& scene);
 
-/// "E_avg(desk) = 312.4 lx, error <= 0.8 lx (0.26 %, estimated)"
-std::string goal_line(const std::string& quantity, double value, double error, const char* unit);
+/// "E_avg(desk) = 312.4 lx, error <= 0.8 lx (0.26 %, estimated)", or with a proved error
+/// "E_avg(desk) = 312.4 lx, error <= 3.1 lx (1 %, guaranteed; estimated 0.8)".
+std::string goal_line(const std::string& quantity, double value, double error, const char* unit,
+                      std::optional<double> proved = {});
 
 }  // namespace interflect::apps

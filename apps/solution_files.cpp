@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/goals.h"
+#include "apps/proved_bounds.h"
 #include "apps/read_scene.h"
 #include "apps/smooth_field.h"
 #include "apps/table.h"
@@ -33,6 +34,21 @@ std::vector<Spectrum> radiosity_errors(const RadiositySolution& solution) {
   return errors;
 }
 
+void add_bounds(const fem::Enclosure& enclosure, const std::vector<std::string>& channels,
+                std::vector<results::CellField>& fields) {
+  const auto add = [&](const std::string& name, std::span<const Interval> bounds) {
+    std::vector<Spectrum> lower, upper;
+    for (const Interval& b : bounds) {
+      lower.push_back(b.lower);
+      upper.push_back(b.upper);
+    }
+    fields.push_back(results::spectrum_field(name + "_lower", lower, channels));
+    fields.push_back(results::spectrum_field(name + "_upper", upper, channels));
+  };
+  add("irradiance", enclosure.irradiance());
+  add("mean_irradiance", enclosure.mean_irradiance());
+}
+
 std::vector<results::CellField> fields_of(const SolvedScene& solved) {
   const RadiositySolution& s = solved.solution;
   const auto& channels = solved.scene.channels;
@@ -44,6 +60,7 @@ std::vector<results::CellField> fields_of(const SolvedScene& solved) {
                                          results::spectrum_field("noise", s.irradiance_noise, channels),
                                          results::spectrum_field("field_error", s.field_error, channels),
                                          results::scalar_field("row_sum", s.row_sum)};
+  if (solved.bounds) add_bounds(solved.bounds->enclosure, channels, fields);
   for (results::CellField& ids : results::id_fields(s.mesh)) fields.push_back(std::move(ids));
   return fields;
 }
@@ -106,8 +123,10 @@ std::string sensors_text(const SolvedScene& solved) {
   for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points)) {
     table.add({s.sensor, std::to_string(s.points), core::format("%.4g", s.minimum), core::format("%.5g", s.mean),
                core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity())});
-    if (goal && goal->name == s.sensor) continue;  // which is known better (adaptation_text)
-    means += goal_line("E_avg(" + s.sensor + ")", s.mean, s.error, unit.c_str()) + "\n";
+    if (goal && goal->name == s.sensor && !solved.bounds) continue;  // which is known better (adaptation_text)
+    std::optional<double> proved;
+    if (solved.bounds) proved = proved_error(solved, *solved.bounds, s.sensor, s.mean);
+    means += goal_line("E_avg(" + s.sensor + ")", s.mean, s.error, unit.c_str(), proved) + "\n";
   }
   return "\n" + table.text() + "\n" + means;
 }
@@ -187,6 +206,7 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("relative_noise_l2", error.relative_noise_l2)
       .add("adaptation",
            solution.adaptation ? adaptation_record(*solution.adaptation, solved.scene) : results::Record())
+      .add("bounds", solved.bounds ? bounds_record(solved, *solved.bounds) : results::Record())
       .add("repairs", lines_of(solved.scene.repairs))
       .add("warnings", solved.warnings)
       .add("stopped", run.stop.stop_requested())
@@ -209,7 +229,9 @@ void write_solution(const SolvedScene& solved, const SolveOptions& options, cons
   results::write_surfaces_csv(
       options.out / "surfaces.csv",
       results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
-  results::write_sensors_csv(options.out / "sensors.csv", solved.points, solved.at_points, channels);
+  results::write_sensors_csv(
+      options.out / "sensors.csv", solved.points, solved.at_points, channels,
+      solved.bounds ? std::span<const Interval>(solved.bounds->at_points) : std::span<const Interval>());
   write_summary(solved, options, common, run);
 #ifdef INTERFLECT_WITH_VTK
   if (options.pictures) write_field_pictures(solved, field ? &*field : nullptr, options.out);
@@ -229,6 +251,7 @@ std::string solution_text(const SolvedScene& solved) {
   text += core::format("irradiance  mean %.5g %s, error about %s (L2, estimated) and noise %s\n", error.mean_irradiance,
                        solved.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
                        core::format_percent(error.relative_noise_l2).c_str());
+  if (solved.bounds) text += bounds_text(solved, *solved.bounds);
   text += core::format("solver      %s after %d iterations, residual %.1e\n", solvers::describe(s.solver.why).c_str(),
                        s.solver.iterations, s.solver.residual());
   text += "time        ";

@@ -15,6 +15,8 @@
 
 namespace interflect::apps {
 
+struct ProvedBounds;
+
 /// A scene with its radiosity solution and the answers at its sensors: what `solve` writes and `validate` judges.
 ///
 /// It stays where it was made: the ray caster refers to the scene.
@@ -32,6 +34,7 @@ struct SolvedScene {
   std::vector<Estimate> at_points;
   std::vector<std::string> warnings;                 ///< of the reader, then of the solution
   std::unique_ptr<results::OutputDirectory> folder;  ///< options.out
+  std::shared_ptr<const ProvedBounds> bounds;        ///< none where they were not asked for
 
   fem::RadiosityMethod method() const { return {solution, *rays}; }
 };

@@ -61,22 +61,29 @@ void write_surfaces_csv(const std::filesystem::path& file, std::span<const Surfa
   write_atomically(file, surfaces_csv(rows, channels));
 }
 
-std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels) {
+std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels,
+                        std::span<const Interval> bounds) {
   if (points.size() != values.size()) throw core::PreconditionError("sensors_csv: one value per point expected");
+  if (!bounds.empty() && points.size() != bounds.size())
+    throw core::PreconditionError("sensors_csv: bounds of all points or of none expected");
   Csv csv;
   for (const char* heading : {"sensor", "index", "x", "y", "z", "nx", "ny", "nz"}) csv.text(heading);
-  csv.headings("value", channels).headings("error", channels).end_line();
+  csv.headings("value", channels).headings("error", channels);
+  if (!bounds.empty()) csv.headings("lower", channels).headings("upper", channels);
+  csv.end_line();
   for (std::size_t i = 0; i < points.size(); ++i) {
     csv.text(points[i].sensor).integer(points[i].index);
     for (const Vec3& v : {points[i].at.position, points[i].at.normal}) csv.number(v.x()).number(v.y()).number(v.z());
-    csv.numbers(values[i].value, channels).numbers(error_95(values[i]), channels).end_line();
+    csv.numbers(values[i].value, channels).numbers(error_95(values[i]), channels);
+    if (!bounds.empty()) csv.numbers(bounds[i].lower, channels).numbers(bounds[i].upper, channels);
+    csv.end_line();
   }
   return csv.str();
 }
 
 void write_sensors_csv(const std::filesystem::path& file, std::span<const measure::SensorPoint> points,
-                       std::span<const Estimate> values, int channels) {
-  write_atomically(file, sensors_csv(points, values, channels));
+                       std::span<const Estimate> values, int channels, std::span<const Interval> bounds) {
+  write_atomically(file, sensors_csv(points, values, channels, bounds));
 }
 
 }  // namespace interflect::results

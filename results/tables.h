@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/estimate.h"
+#include "core/interval.h"
 #include "measure/sensor_points.h"
 #include "mesh/element_mesh.h"
 #include "scene/scene.h"
@@ -38,9 +39,11 @@ SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scen
 std::string surfaces_csv(std::span<const SurfaceRow> rows, int channels);
 void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, int channels);
 
-/// `sensor,index,x,y,z,nx,ny,nz,value_0,..,error_0,..`, a line a point.
-std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels);
+/// `sensor,index,x,y,z,nx,ny,nz,value_0,..,error_0,..`, a line a point; with bounds also `lower_0,..,upper_0,..`.
+/// @param bounds  proved ones of the points; or none
+std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels,
+                        std::span<const Interval> bounds = {});
 void write_sensors_csv(const std::filesystem::path& file, std::span<const measure::SensorPoint> points,
-                       std::span<const Estimate> values, int channels);
+                       std::span<const Estimate> values, int channels, std::span<const Interval> bounds = {});
 
 }  // namespace interflect::results

@@ -43,6 +43,9 @@ class PairShadow {
   /// asked.
   bool touches_eyes() const { return touches_; }
 
+  /// Whether the blocker is proved to hide all of the inner polygon from every eye.
+  bool hides_all() const { return !touches_ && edges_.empty() && faces_.empty(); }
+
   /// Appends half-spaces whose intersection, within the inner polygon, is hidden from an eye of the outer one; none:
   /// all of it is.
   void append(const Vec3& eye, std::vector<geometry::HalfSpace>& shadow) const;

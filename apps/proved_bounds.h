@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/solved_scene.h"
+#include "fem/bounds/enclosure.h"
+
+namespace interflect::apps {
+
+/// Proved bounds of a solution and of what its sensors read (`--bounds`).
+struct ProvedBounds {
+  fem::Enclosure enclosure;
+  std::vector<Interval> at_points;  ///< of the sensors' points
+  double seconds;
+};
+
+/// Nothing where the run was stopped, which is said: the solution is worth keeping without.
+/// @throws core::InputError  where there are none to be had
+std::unique_ptr<ProvedBounds> proved_bounds(const SolvedScene& solved, double max_memory, Run& run);
+
+/// How far the truth of a sensor's mean may be from a number, weighed over the channels.
+double proved_error(const SolvedScene& solved, const ProvedBounds& bounds, const std::string& sensor, double mean);
+
+/// "bounds      mean irradiance of elements within 3.1 % (mean, guaranteed), found in 12 s"
+std::string bounds_text(const SolvedScene& solved, const ProvedBounds& bounds);
+results::Record bounds_record(const SolvedScene& solved, const ProvedBounds& bounds);
+
+}  // namespace interflect::apps

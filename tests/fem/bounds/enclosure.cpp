@@ -1,0 +1,148 @@
+#include "fem/bounds/enclosure.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/fem/bounds/random_room.h"
+
+namespace interflect::fem {
+namespace {
+
+using test::NearlyTrue;
+using test::Room;
+
+constexpr double enough_memory = 8e9, doubt_of_truth = 5e-4;
+
+// Random rooms with a body: the bounds hold everywhere, and are not five times as wide as B - B_h is large.
+TEST(Enclosure, holds_the_truth_and_not_much_more) {
+  core::LocalRun run(1, 2);
+  for (int seed = 1; seed <= 2; ++seed) {  // fifty of them: fifty_rooms.cpp
+    std::mt19937 random(static_cast<unsigned>(seed));
+    const scene::Scene scene = test::random_room(random);
+    const NearlyTrue truth(scene, .6, run.get());
+    const RadiositySolution s = test::solved(scene, .45, 0, run.get());
+    const Enclosure enclosure(scene, s, enough_memory, run.get());
+    const test::Held held = test::held_against(enclosure, s, truth, doubt_of_truth, 5);
+    EXPECT_EQ(held.outside, 0) << seed << " of " << held.points;
+    EXPECT_LT(held.width, 5 * held.largest_error) << seed;
+    for (std::size_t i = 0; i < s.irradiance.size(); ++i) {  // Galerkin's means are nearer to the truth than constants
+      EXPECT_GT(s.irradiance[i][0], enclosure.mean_irradiance()[i].lower[0]);
+      EXPECT_LT(s.irradiance[i][0], enclosure.mean_irradiance()[i].upper[0]);
+    }
+    const Vec3 size = scene.box().sizes();
+    for (const Vec3& share : {Vec3(.5, .15, .1), Vec3(.6, .9, .5), Vec3(.45, .5, .95)}) {
+      const measure::PointIrradiance at{share.cwiseProduct(size), Vec3(.1, .2, 1).normalized(), {}};
+      const Interval H = enclosure.irradiance_at(at);
+      const double known = truth.irradiance(at);
+      EXPECT_GT(known, H.lower[0] - doubt_of_truth);
+      EXPECT_LT(known, H.upper[0] + doubt_of_truth);
+      EXPECT_LT(H.upper[0] - H.lower[0], .5 * known);
+    }
+  }
+}
+
+// Where all that shines and all that reflects is the same, B_h is the truth, and its bounds are it.
+TEST(Enclosure, of_a_furnace_is_the_solution) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    Room room;
+    room.box(Vec3(0, 0, 0), Vec3(2, 1, 1) * scale, 1, true, .7, .3);
+    room.box(Vec3(.4, .3, .2) * scale, Vec3(.5, .4, .3) * scale, 1, false, .7, .3);
+    const scene::Scene scene = room.finish();
+    core::LocalRun run(1, 2);
+    RadiositySolution s = test::solved(scene, .7 * scale, 0, run.get());
+    for (Spectrum& B : s.radiosity) B = Spectrum(1.0);
+    const Enclosure enclosure(scene, s, enough_memory, run.get());
+    for (const Interval& B : enclosure.radiosity()) {
+      EXPECT_NEAR(B.lower[0], 1, 1e-9);
+      EXPECT_NEAR(B.upper[0], 1, 1e-9);
+    }
+  }
+}
+
+// A manufactured solution that is constant on faces, B = b_f with the exitance that makes it one, about B_h = b_f + d:
+// since all is linear this is the solution 0 without any exitance about d, whatever b_f is.  The bounds hold 0, and are
+// not five times as wide as d.
+TEST(Enclosure, holds_a_manufactured_solution_about_anything) {
+  core::LocalRun run(1, 2);
+  for (unsigned seed = 21; seed < 23; ++seed) {
+    std::mt19937 random(seed);
+    const scene::Scene scene = test::random_room(random);
+    RadiositySolution s = test::solved(scene, .6, 0, run.get());
+    std::uniform_real_distribution<double> part(-1, 1);
+    double size = 0, width = 0;
+    for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
+      s.radiosity[i] = Spectrum(part(random));
+      s.exitance[i] = Spectrum();
+      size += s.mesh.patches()[i].area * std::abs(s.radiosity[i][0]);
+    }
+    const Enclosure enclosure(scene, s, enough_memory, run.get());
+    for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
+      EXPECT_LE(enclosure.radiosity()[i].lower[0], 0);
+      EXPECT_GE(enclosure.radiosity()[i].upper[0], 0);
+      width += s.mesh.patches()[i].area * (enclosure.radiosity()[i].upper[0] - enclosure.radiosity()[i].lower[0]);
+    }
+    EXPECT_LT(width, 5 * size) << seed;
+  }
+}
+
+// Bounds scale with lengths and with light as the solution does, and do not depend on the number of threads.
+TEST(Enclosure, is_the_same_at_any_scale_and_for_any_threads) {
+  std::vector<double> lower, upper;
+  for (const auto& [scale, threads] :
+       {std::pair(1.0, 2u), std::pair(1.0, 1u), std::pair(1e-6, 2u), std::pair(1e6, 1u)}) {
+    std::mt19937 random(3);
+    const scene::Scene scene = test::random_room(random, scale);
+    core::LocalRun run(1, threads);
+    const RadiositySolution s = test::solved(scene, .9 * scale, 0, run.get());
+    const Enclosure enclosure(scene, s, enough_memory, run.get());
+    ASSERT_TRUE(lower.empty() || lower.size() == enclosure.radiosity().size());
+    const bool first = lower.empty();
+    for (std::size_t i = 0; i < enclosure.radiosity().size(); ++i) {
+      const Interval& B = enclosure.radiosity()[i];
+      if (first) {
+        lower.push_back(B.lower[0]);
+        upper.push_back(B.upper[0]);
+      } else if (scale == 1) {
+        EXPECT_EQ(B.lower[0], lower[i]);
+        EXPECT_EQ(B.upper[0], upper[i]);
+      } else {
+        EXPECT_NEAR(B.lower[0], lower[i], .05 * (upper[i] - lower[i]));
+        EXPECT_NEAR(B.upper[0], upper[i], .05 * (upper[i] - lower[i]));
+      }
+    }
+  }
+}
+
+// Without a ceiling nothing is known of what does not arrive, and the bounds still hold.
+TEST(Enclosure, holds_in_an_open_scene) {
+  Room room;
+  room.wall({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, 1, .6);
+  room.wall({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1, .5, 1);
+  room.wall({2, 0, 0}, {0, 0, 1}, {0, 1, 0}, 1, .7);
+  room.box({.8, .3, .1}, {.4, .3, .3}, 1, false, .4);
+  const scene::Scene scene = room.finish();
+  core::LocalRun run(1, 2);
+  const NearlyTrue truth(scene, .5, run.get());
+  const RadiositySolution s = test::solved(scene, .3, 0, run.get());
+  EXPECT_FALSE(s.closed);
+  const Enclosure enclosure(scene, s, enough_memory, run.get());
+  const test::Held held = test::held_against(enclosure, s, truth, doubt_of_truth, 2);
+  EXPECT_EQ(held.outside, 0) << held.points;
+}
+
+TEST(Enclosure, says_what_it_cannot) {
+  Room room;
+  room.box(Vec3(0, 0, 0), Vec3(1, 1, 1), 1, true, .5, .5);
+  room.box(Vec3(.3, .3, .3), Vec3(.2, .2, .2), 1, false, 1);
+  const scene::Scene mirror = room.finish();
+  core::LocalRun run(1, 2);
+  RadiositySolution s = test::solved(mirror, .6, 0, run.get());
+  EXPECT_THROW(Enclosure(mirror, s, enough_memory, run.get()), core::InputError);
+  std::mt19937 random(1);
+  const scene::Scene scene = test::random_room(random);
+  const RadiositySolution of_room = test::solved(scene, .6, 0, run.get());
+  EXPECT_THROW(Enclosure(scene, of_room, 1e5, run.get()), core::InputError);
+}
+
+}  // namespace
+}  // namespace interflect::fem
