@@ -124,7 +124,10 @@ class Enclosure::Iteration {
     }
   }
 
+  /// Light is never negative, whatever else is known.
   void set_results() {
+    H_.lower = H_.lower.cwiseMax(0.0);
+    mean_H_.lower = mean_H_.lower.cwiseMax(0.0);
     for (Index i = 0; i < elements_; ++i) {
       irradiance.push_back(interval({H_.lower.row(i), H_.upper.row(i)}));
       mean_irradiance.push_back(interval({mean_H_.lower.row(i), mean_H_.upper.row(i)}));
@@ -144,7 +147,9 @@ class Enclosure::Iteration {
     }
     const CellTransport transport =
         transport_over(around_, around_.cell_at(at.position, at.normal), all_B_, around_.within(at.position), 0);
-    return interval(H + with_slack(transported(transport).front()));
+    H = H + with_slack(transported(transport).front());
+    H.lower = H.lower.cwiseMax(0.0);
+    return interval(H);
   }
 
   std::vector<Interval> irradiance, mean_irradiance, radiosity;

@@ -195,6 +195,28 @@ TEST(Solve, makes_elements_for_a_goal_and_says_how_it_got_there) {
   EXPECT_EQ(summary.at("elements"), last.at("elements"));
 }
 
+// A furnace of rho .5 in which all emits .5: B = H = 1.
+TEST(Solve, proves_bounds_beside_its_estimates) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("furnace.json", R"({ "format": "interflect/scene/1", "units": "m",
+    "quantity": "radiometric", "channels": ["y"], "weights": [1],
+    "materials": { "grey": { "type": "diffuse", "reflectance": 0.5, "exitance": 0.5 } },
+    "geometry": [ { "name": "room", "material": "grey", "box": { "min": [0, 0, 0], "max": [2, 1, 1] }, "facing": "inward" } ],
+    "sensors": [ { "name": "middle", "points": [[1, 0.5, 0.5]], "normal": [0, 0, 1] } ] })");
+  const Outcome solve =
+      interflect({"solve", scene, "-o", folder / "out", "--no-pictures", "--bounds", "--element-size", "0.5"});
+  ASSERT_EQ(solve.status, 0) << solve.err;
+  EXPECT_TRUE(contains(solve.out, "(mean of all, guaranteed)")) << solve.out;
+  EXPECT_TRUE(contains(solve.out, "guaranteed; estimated")) << solve.out;
+  const json bounds = json::parse(read_file(folder / "out/summary.json")).at("bounds");
+  EXPECT_EQ(bounds.at("claim"), "guaranteed");
+  EXPECT_LT(bounds.at("mean_half_width"), 0.05);
+  const std::string fields = read_file(folder / "out/solution.vtu");
+  for (const char* name : {"irradiance_lower", "irradiance_upper", "mean_irradiance_lower", "mean_irradiance_upper"})
+    EXPECT_TRUE(contains(fields, name)) << name;
+  EXPECT_TRUE(contains(read_file(folder / "out/sensors.csv"), "error_0,lower_0,upper_0"));
+}
+
 TEST(Solve, a_forecast_writes_nothing) {
   const TemporaryFolder folder;
   const Outcome forecast = interflect({"solve", shipped_scene("office"), "-o", folder / "out", "--forecast"});

@@ -53,6 +53,17 @@ TEST(Interrupted, a_stop_before_there_are_estimates_is_said_and_leaves_no_folder
   EXPECT_FALSE(std::filesystem::exists(folder / "tables"));
 }
 
+TEST(Interrupted, a_solution_is_kept_without_its_bounds) {
+  const TemporaryFolder folder;
+  const Outcome solve = interflect({"solve", shipped_scene("two_rooms"), "--bounds", "--element-size", "0.7",
+                                    "--threads", "2", "--no-pictures", "-o", folder / "out"},
+                                   {.interrupt_when = part_of("bounds")});
+  EXPECT_EQ(solve.status, 1) << solve.err;
+  EXPECT_TRUE(contains(solve.err, "stopped before its bounds were found")) << solve.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/solution.vtu"));
+  EXPECT_EQ(json_of(folder / "out/summary.json").at("stopped"), true);
+}
+
 TEST(Interrupted, a_solve_without_form_factors_leaves_nothing) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";

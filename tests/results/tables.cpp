@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/error.h"
 #include "results/csv.h"
 #include "tests/support/temporary_folder.h"
 #include "tiny_mesh.h"
@@ -72,6 +73,15 @@ TEST(Tables, numbers_keep_twelve_digits_and_infinity_is_inf) {
 TEST(Tables, the_headings_are_the_agreed_ones) {
   EXPECT_EQ(surfaces_csv({}, 2), "name,area,radiosity_0,radiosity_1,irradiance_0,irradiance_1,error_0,error_1\n");
   EXPECT_EQ(sensors_csv({}, {}, 1), "sensor,index,x,y,z,nx,ny,nz,value_0,error_0\n");
+}
+
+TEST(Tables, bounds_have_columns_of_their_own) {
+  const std::vector<measure::SensorPoint> points{{"desk", 0, {{1, 2, 3}, Vec3::UnitZ(), {}}}};
+  const std::vector<Estimate> values{{Spectrum(5.0), Spectrum(), Spectrum(1.0), Claim::estimated, 0}};
+  const std::vector<Interval> bounds{{Spectrum(3.0), Spectrum(7.0)}};
+  EXPECT_EQ(sensors_csv(points, values, 1, bounds),
+            "sensor,index,x,y,z,nx,ny,nz,value_0,error_0,lower_0,upper_0\ndesk,0,1,2,3,0,0,1,5,1,3,7\n");
+  EXPECT_THROW(sensors_csv(points, values, 1, std::vector<Interval>(2)), core::PreconditionError);
 }
 
 TEST(Tables, a_line_a_side_has_area_means) {
