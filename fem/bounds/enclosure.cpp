@@ -44,11 +44,10 @@ struct Residuals {
         deviation(elements * QuarterTree::nodes, channels) {}
 };
 
-/// A leaf that a node of its element holds, or is held by: a share of the node's area.
+/// A leaf that a node of its element holds, or is held by.
 struct Cover {
   int node;
   std::size_t leaf;
-  double share;
 };
 
 std::size_t bytes_of(const CellTransport& transport) {
@@ -79,7 +78,6 @@ class Enclosure::Iteration {
         mean_H_(elements_, channels_),
         r_(around_.elements(), channels_),
         g_(around_.elements() * QuarterTree::nodes, channels_),
-        mean_g_(around_.elements() * QuarterTree::nodes, channels_),
         covers_(patches_.size()) {
     all_B_.topRows(elements_) = B_;
     const Index black = around_.elements() - elements_, nodes = black * QuarterTree::nodes;
@@ -114,10 +112,9 @@ class Enclosure::Iteration {
     for (int pass = 0; pass < most; ++pass) {
       run.throw_if_stopped("bounds");
       slack_ = 1e-11 * B_.cwiseAbs().maxCoeff() + 1e-6 * largest_error();
-      ManyBounds next = g_, next_mean = mean_g_;
-      run.threads.for_blocks(elements_, 1, [&](Index element, Index) { improve(element, next, next_mean); });
+      ManyBounds next = g_;
+      run.threads.for_blocks(elements_, 1, [&](Index element, Index) { improve(element, next); });
       g_ = std::move(next);
-      mean_g_ = std::move(next_mean);
       const double width = (g_.upper - g_.lower).sum();
       if (width >= (1 - enough) * before) break;
       before = width;
@@ -194,7 +191,7 @@ class Enclosure::Iteration {
       } else {
         continue;
       }
-      covers_[static_cast<std::size_t>(element)].push_back({node, l, parts.back().first});
+      covers_[static_cast<std::size_t>(element)].push_back({node, l});
       shares += parts.back().first;
       all.widen(parts.back().second);
     }
@@ -232,10 +229,7 @@ class Enclosure::Iteration {
       throw core::InputError("bounds", "none can be proved where a surface reflects everything");
     const Bounds all{r_.everywhere.lower.colwise().minCoeff().cwiseMin(0.0).array() / (1 - rho.array()),
                      r_.everywhere.upper.colwise().maxCoeff().cwiseMax(0.0).array() / (1 - rho.array())};
-    for (Index row = 0; row < g_.upper.rows(); ++row) {
-      g_.narrow(row, all);
-      mean_g_.narrow(row, all);
-    }
+    for (Index row = 0; row < g_.upper.rows(); ++row) g_.narrow(row, all);
   }
 
   /// T e over the leaves.
@@ -248,18 +242,12 @@ class Enclosure::Iteration {
     return out;
   }
 
-  void improve(Index element, ManyBounds& next, ManyBounds& next_mean) {
+  void improve(Index element, ManyBounds& next) {
     const CellTransport& transport = transports_[static_cast<std::size_t>(element)];
     const std::vector<Bounds> of_leaves = transported(transport);
-    std::vector<Bounds> everywhere(QuarterTree::nodes, Bounds::none(channels_)),
-        mean(QuarterTree::nodes, Bounds::zero(channels_));
-    for (const Cover& cover : covers_[static_cast<std::size_t>(element)]) {
-      const Bounds& g = of_leaves[cover.leaf];
-      const auto node = static_cast<std::size_t>(cover.node);
-      everywhere[node].widen(g);
-      mean[node].lower += cover.share * g.lower;
-      mean[node].upper += cover.share * g.upper;
-    }
+    std::vector<Bounds> of_nodes(QuarterTree::nodes, Bounds::none(channels_));
+    for (const Cover& cover : covers_[static_cast<std::size_t>(element)])
+      of_nodes[static_cast<std::size_t>(cover.node)].widen(of_leaves[cover.leaf]);
     Bounds H = Bounds::none(channels_), mean_H = Bounds::zero(channels_);
     for (std::size_t l = 0; l < of_leaves.size(); ++l) {
       const Leaf& leaf = transport.leaves[l];
@@ -270,10 +258,8 @@ class Enclosure::Iteration {
     }
     H_.narrow(element, with_slack(H));
     mean_H_.narrow(element, with_slack(mean_H));
-    for (Index node = 0; node < QuarterTree::nodes; ++node) {
-      next.narrow(element * QuarterTree::nodes + node, everywhere[static_cast<std::size_t>(node)]);
-      next_mean.narrow(element * QuarterTree::nodes + node, mean[static_cast<std::size_t>(node)]);
-    }
+    for (Index node = 0; node < QuarterTree::nodes; ++node)
+      next.narrow(element * QuarterTree::nodes + node, of_nodes[static_cast<std::size_t>(node)]);
   }
 
   /// sign e <= this, anywhere on a node.
@@ -283,11 +269,13 @@ class Enclosure::Iteration {
     return sign > 0 ? r_.everywhere.upper(source, c) + rho * g_.upper(source, c)
                     : -(r_.everywhere.lower(source, c) + rho * g_.lower(source, c));
   }
-  double mean_of(std::uint32_t source, Index c, int sign) const {
+  /// The same of the mean of r and of T e anywhere: T e may vary as k does, and the mean of their product be more than
+  /// that of their means.
+  double by_mean(std::uint32_t source, Index c, int sign) const {
     const Index j = source / QuarterTree::nodes;
     const double rho = reflectance_(j, c);
-    return sign > 0 ? r_.mean.upper(source, c) + rho * mean_g_.upper(source, c)
-                    : -(r_.mean.lower(source, c) + rho * mean_g_.lower(source, c));
+    return sign > 0 ? r_.mean.upper(source, c) + rho * g_.upper(source, c)
+                    : -(r_.mean.lower(source, c) + rho * g_.lower(source, c));
   }
 
   /// What element j sends of e with a sign: by the mean of r, or by what it is anywhere, whichever says more.
@@ -296,7 +284,7 @@ class Enclosure::Iteration {
     for (Index c = 0; c < channels_; ++c) {
       double e = highest(from.source, c, sign), doubt = 0;
       if (from.known == Exchange::Known::whole) {
-        const double across = double{from.across} * r_.deviation(from.source, c), mean = mean_of(from.source, c, sign);
+        const double across = double{from.across} * r_.deviation(from.source, c), mean = by_mean(from.source, c, sign);
         if (across < double{from.value} * (e - mean)) e = mean, doubt = across;
       }
       sum.add(from, c, e, doubt);
@@ -355,7 +343,7 @@ class Enclosure::Iteration {
   std::vector<CellTransport> transports_;
   ManyBounds H_, mean_H_;  ///< of elements
   Residuals r_;
-  ManyBounds g_, mean_g_;  ///< T e on nodes, and its mean
+  ManyBounds g_;  ///< T e on nodes
   std::vector<std::vector<Cover>> covers_;
 };
 
