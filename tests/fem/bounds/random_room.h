@@ -52,9 +52,7 @@ inline RadiositySolution solved(const scene::Scene& scene, double element_size, 
 class NearlyTrue {
  public:
   NearlyTrue(const scene::Scene& scene, double element_size, Run& run)
-      : scene_(scene),
-        solution_(solved(scene, element_size, 2, run)),
-        factors_(scene, solution_.mesh.patches(), 2, 1e-6) {}
+      : solution_(solved(scene, element_size, 2, run)), factors_(scene, solution_.mesh.patches(), 2, 1e-6) {}
 
   double irradiance(const measure::PointIrradiance& at) const {
     std::vector<double> F(static_cast<std::size_t>(factors_.elements() * factors_.functions())),
@@ -64,7 +62,6 @@ class NearlyTrue {
   }
 
  private:
-  const scene::Scene& scene_;
   RadiositySolution solution_;
   PointViewFactors factors_;
 };
