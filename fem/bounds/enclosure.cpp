@@ -58,13 +58,19 @@ std::size_t bytes_of(const CellTransport& transport) {
          transport.leaves.size() * sizeof(Leaf);
 }
 
+/// A ray may be lost in the seam of two walls; an opening is missing in the rows of all that see it.
+bool is_closed(const RadiositySolution& solution) {
+  constexpr double nothing = 1e-4;
+  return solution.closed || (solution.closure_correction == 0 && solution.rows.lowest > 1 - nothing);
+}
+
 }  // namespace
 
 class Enclosure::Iteration {
  public:
   Iteration(const scene::Scene& scene, const RadiositySolution& solution)
       : patches_(solution.mesh.patches()),
-        around_(scene, patches_, solution.closed),
+        around_(scene, patches_, is_closed(solution)),
         factors_(scene, patches_),
         B_(to_columns(solution.radiosity, scene.channel_count())),
         exitance_(to_columns(solution.exitance, scene.channel_count())),

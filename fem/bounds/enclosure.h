@@ -30,7 +30,7 @@ namespace interflect::fem {
 /// Widths are O(h) where the solution is smooth: about what B varies by over an element, since B_h is constant there.
 /// They hold past whatever hides; what may be hidden in part is cut into smaller parts, and counts as anything from
 /// nothing to all of it.  Rounding alone is not proved: 1e-11 of the largest |B_h| and 1e-6 of the largest |T e| are
-/// added for it.  A scene counts as closed if no ray that leaves an element is lost (RadiositySolution::closed).
+/// added for it.  A scene counts as closed if no ray that leaves an element is lost, or no row sum lacks 1e-4.
 /// Test: tests/fem/bounds/enclosure.cpp
 class Enclosure {
  public:
