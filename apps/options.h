@@ -28,7 +28,8 @@ struct SolveOptions {
   std::filesystem::path factors;  ///< an .h5 of view factors to use; empty: they are computed
   bool forecast_only = false;
   bool pictures = true;
-  bool bounds = false;  ///< proved ones are found too
+  bool bounds = false;    ///< proved ones are found too
+  bool residual = false;  ///< its norms are found too
 };
 
 struct ValidateOptions {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/equation_residual.h"
 #include "apps/goals.h"
 #include "apps/proved_bounds.h"
 #include "apps/read_scene.h"
@@ -61,6 +62,7 @@ std::vector<results::CellField> fields_of(const SolvedScene& solved) {
                                          results::spectrum_field("field_error", s.field_error, channels),
                                          results::scalar_field("row_sum", s.row_sum)};
   if (solved.bounds) add_bounds(solved.bounds->enclosure, channels, fields);
+  if (solved.residual) fields.push_back(results::spectrum_field("residual", solved.residual->of_elements, channels));
   for (results::CellField& ids : results::id_fields(s.mesh)) fields.push_back(std::move(ids));
   return fields;
 }
@@ -138,6 +140,7 @@ results::Record settings_record(const fem::RadiositySettings& settings, const Ra
   record.add("element_size_m", solution.element_size)
       .add("form_factors", settings.form_factors)
       .add("order", settings.order)
+      .add("projection", fem::name_of(settings.projection))
       .add("solver", settings.solver)
       .add("solver_tolerance", settings.stopping.tolerance)
       .add("intersector", settings.intersector)
@@ -207,6 +210,7 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("adaptation",
            solution.adaptation ? adaptation_record(*solution.adaptation, solved.scene) : results::Record())
       .add("bounds", solved.bounds ? bounds_record(solved, *solved.bounds) : results::Record())
+      .add("residual", solved.residual ? residual_record(solved, *solved.residual) : results::Record())
       .add("repairs", lines_of(solved.scene.repairs))
       .add("warnings", solved.warnings)
       .add("stopped", run.stop.stop_requested())
@@ -252,6 +256,7 @@ std::string solution_text(const SolvedScene& solved) {
                        solved.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
                        core::format_percent(error.relative_noise_l2).c_str());
   if (solved.bounds) text += bounds_text(solved, *solved.bounds);
+  if (solved.residual) text += residual_text(solved, *solved.residual);
   text += core::format("solver      %s after %d iterations, residual %.1e\n", solvers::describe(s.solver.why).c_str(),
                        s.solver.iterations, s.solver.residual());
   text += "time        ";

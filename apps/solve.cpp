@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "apps/commands.h"
+#include "apps/equation_residual.h"
 #include "apps/proved_bounds.h"
 #include "apps/read_scene.h"
 #include "apps/solution_files.h"
@@ -11,12 +12,13 @@ ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& 
   if (options.forecast_only) return print_forecast(options, common, run);
   const auto solved = solve_scene(read_and_note(options.scene), options, common, run);
   if (options.bounds) solved->bounds = proved_bounds(*solved, options.settings.max_memory, run);
+  if (options.residual) solved->residual = equation_residual(*solved, run);
   write_solution(*solved, options, common, run);
   if (common.json)
     std::printf("%s\n", results::json_text(summary_record(*solved, options, common, run)).c_str());
   else if (!common.quiet)
     std::printf("%s\nwritten to %s\n", solution_text(*solved).c_str(), options.out.string().c_str());
-  const bool all_found = !options.bounds || solved->bounds;
+  const bool all_found = (!options.bounds || solved->bounds) && (!options.residual || solved->residual);
   return all_found && shortfalls_of(solved->solution, options.settings).empty() ? success : not_met;
 }
 

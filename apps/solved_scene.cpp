@@ -107,13 +107,13 @@ ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& comm
 }
 
 std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions& options, const CommonOptions& common,
-                                         Run& run) {
+                                         Run& asked) {
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
   fem::RadiositySettings settings = options.settings;
   if (options.target_error > 0 || !options.goal.empty())
     settings.adaptive = {goal_named(options.goal, scene, points), options.target_error};
   if (!options.factors.empty()) settings.stored_factors = factors_from(options.factors);
-  const fem::Forecast forecast = fem::forecast(scene, settings, run);
+  const fem::Forecast forecast = fem::forecast(scene, settings, asked);
   auto folder = std::make_unique<results::OutputDirectory>(options.out);
   if (!common.json && !common.quiet)
     std::printf("bounding box %s\n%s\n", box_text(scene).c_str(),
@@ -123,7 +123,9 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
                           .c_str()
                     : describe(forecast).c_str());
   std::fflush(stdout);
-  auto solution = fem::solve_radiosity(scene, settings, run);
+  auto solution = fem::solve_radiosity(scene, settings, asked);
+  const auto& made = solution.adaptation;
+  Run run = made && made->why == fem::AdaptiveStop::asked_to_stop ? asked.to_the_end() : asked;
   auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution));
   solved->folder = std::move(folder);
   solved->points = std::move(points);

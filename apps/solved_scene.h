@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/commands.h"
 #include "apps/options.h"
 #include "fem/radiosity_method.h"
+#include "fem/residual.h"
 #include "measure/sensor_points.h"
 #include "raycast/ray_caster.h"
 #include "results/output_directory.h"
@@ -35,6 +37,7 @@ struct SolvedScene {
   std::vector<std::string> warnings;                 ///< of the reader, then of the solution
   std::unique_ptr<results::OutputDirectory> folder;  ///< options.out
   std::shared_ptr<const ProvedBounds> bounds;        ///< none where they were not asked for
+  std::optional<fem::ResidualNorms> residual;        ///< likewise
 
   fem::RadiosityMethod method() const { return {solution, *rays}; }
 };

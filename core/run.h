@@ -22,6 +22,8 @@ struct Run {
   void throw_if_stopped(const std::string& stage) const {
     if (stop.stop_requested()) throw core::Interrupted(stage);
   }
+  /// The same, deaf to that: for the last steps, which make what there is worth keeping.
+  Run to_the_end() const { return {seed, threads, progress, {}}; }
 };
 
 namespace core {

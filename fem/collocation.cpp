@@ -1,74 +1,60 @@
 #include "fem/collocation.h"
 
-#include <Eigen/LU>
-#include <cmath>
-
-#include "core/error.h"
+#include <functional>
 
 namespace interflect::fem {
-
 namespace {
 
-/// As many as there are functions.
-Rule nodes_of(CollocationNodes nodes, int order) {
-  if (nodes == CollocationNodes::gauss_points) return gauss_legendre(order + 1);
-  const double inner = 0.5 - 0.5 / std::sqrt(5.0);
-  switch (order) {
-    case 1:
-      return {{0, 0, 0}, {1, 0, 0}};
-    case 2:
-      return {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}};
-    case 3:
-      return {{0, 0, 0}, {inner, 0, 0}, {1 - inner, 0, 0}, {1, 0, 0}};
-    default:
-      throw core::PreconditionError("Collocation: an order of 1 or more expected at vertices");
-  }
+using RowOfFunctions = std::function<void(Index node, Eigen::Ref<Eigen::RowVectorXd> out)>;
+
+/// T = F P, with rows of F from `row`.
+NodeOperator operator_of(const NodeSet& nodes, const RowOfFunctions& row, Run& run) {
+  constexpr Index rows_a_task = 16;
+  solvers::ColumnMatrix T(nodes.size(), nodes.size());
+  core::Progress::Stage stage(run.progress, "collocation", nodes.position.size());
+  run.threads.for_blocks(nodes.size(), rows_a_task, [&](Index first, Index end) {
+    Eigen::RowVectorXd F(nodes.P.rows());
+    for (Index a = first; a < end; ++a) {
+      run.throw_if_stopped("collocation");
+      row(a, F);
+      T.row(a) = F * nodes.P;
+      stage.advance(1);
+    }
+  });
+  return NodeOperator(std::move(T));
 }
 
 }  // namespace
 
-Collocation::Collocation(const Space& space, CollocationNodes where, const Kernel& kernel, int points, Run& run)
-    : space_(space),
-      T_(solvers::ColumnMatrix::Zero(space.layout().unknowns(), space.layout().unknowns())),
-      ones_(static_cast<std::size_t>(space.layout().unknowns()), 1.0),
-      self_(ones_.size(), 0.0) {
-  const Index count = std::ssize(space.panels());
-  for (Index i = 0; i < count; ++i) {
-    if (space.panel(i).corners != 2) throw core::PreconditionError("Collocation: segments expected");
-    const PanelNodes at = space.nodes(i, nodes_of(where, space.order()));
-    nodes_.insert(nodes_.end(), at.position.begin(), at.position.end());
-    to_coefficients_.push_back(at.values.inverse());
-  }
-  run.threads.for_blocks(count, 1, [&](Index i, Index) {
-    run.throw_if_stopped("collocation matrix");
-    for (Index j = 0; j < count; ++j) {
-      if (j == i) continue;
-      const PanelNodes at = space.nodes(j, points);
-      for (Index a = space.first(i); a < space.first(i) + space.functions(i); ++a) {
-        Eigen::RowVectorXd of_functions = Eigen::RowVectorXd::Zero(space.functions(j));
-        for (std::size_t k = 0; k < at.weight.size(); ++k)
-          of_functions += at.weight[k] * kernel(node(a), space.panel(i).normal, at.position[k], space.panel(j).normal) *
-                          at.values.row(static_cast<Index>(k));
-        T_.row(a).segment(space.first(j), space.functions(j)) =
-            of_functions * to_coefficients_[static_cast<std::size_t>(j)];
-      }
+NodeOperator collocation(const Space& space, const NodeSet& nodes, const Kernel& kernel, int points, Run& run) {
+  std::vector<PanelNodes> sources;
+  for (Index j = 0; j < std::ssize(space.panels()); ++j) sources.push_back(space.nodes(j, points));
+  const auto row = [&](Index a, Eigen::Ref<Eigen::RowVectorXd> out) {
+    const Vec3& x = nodes.position[static_cast<std::size_t>(a)];
+    const Index own = nodes.panel[static_cast<std::size_t>(a)];
+    out.setZero();
+    for (Index j = 0; j < std::ssize(space.panels()); ++j) {
+      if (j == own) continue;
+      const PanelNodes& at = sources[static_cast<std::size_t>(j)];
+      for (std::size_t k = 0; k < at.weight.size(); ++k)
+        out.segment(space.first(j), space.functions(j)) +=
+            at.weight[k] * kernel(x, space.panel(own).normal, at.position[k], space.panel(j).normal) *
+            at.values.row(static_cast<Index>(k));
     }
-  });
+  };
+  return operator_of(nodes, row, run);
 }
 
-void Collocation::apply(solvers::ConstColumns b, solvers::Columns out, Run&) const { out.noalias() = T_ * b; }
-
-void Collocation::rows(Index first, Index count, solvers::Columns out) const {
-  out = T_.middleRows(first, count);
-  evaluated_.fetch_add(count, std::memory_order_relaxed);
-}
-
-Eigen::VectorXd Collocation::coefficients(const Eigen::VectorXd& at_nodes) const {
-  Eigen::VectorXd c(at_nodes.size());
-  for (Index i = 0; i < std::ssize(space_.panels()); ++i)
-    c.segment(space_.first(i), space_.functions(i)) =
-        to_coefficients_[static_cast<std::size_t>(i)] * at_nodes.segment(space_.first(i), space_.functions(i));
-  return c;
+NodeOperator collocation(const NodeSet& nodes, const PointViewFactors& factors,
+                         std::span<const scene::SurfacePatch> patches, Run& run) {
+  const auto row = [&](Index a, Eigen::Ref<Eigen::RowVectorXd> out) {
+    const auto node = static_cast<std::size_t>(a);
+    const scene::SurfacePatch& patch = patches[static_cast<std::size_t>(nodes.panel[node])];
+    std::vector<double> rounding(patches.size());
+    factors({nodes.position[node], patch.normal(), patch.surface}, {out.data(), static_cast<std::size_t>(out.size())},
+            rounding);
+  };
+  return operator_of(nodes, row, run);
 }
 
 }  // namespace interflect::fem

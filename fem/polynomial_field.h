@@ -18,6 +18,7 @@ namespace interflect::fem {
 struct PolynomialField {
   int order;
   Index functions;                        ///< of an element
+  std::vector<int> degree;                ///< of elements, <= order: what their highest function with a coefficient has
   std::vector<PlaneBasis> bases;          ///< of elements
   solvers::ColumnMatrix radiosity;        ///< c: unknowns x channels
   solvers::ColumnMatrix irradiance;       ///< G^-1 K c

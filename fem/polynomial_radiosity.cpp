@@ -1,6 +1,7 @@
 #include "fem/polynomial_radiosity.h"
 
 #include "fem/columns.h"
+#include "fem/node_radiosity.h"
 #include "fem/space/polynomials.h"
 
 namespace interflect::fem {
@@ -8,12 +9,15 @@ namespace {
 
 using solvers::ColumnMatrix;
 
-/// Values of elements on their functions `first` .. `end`, 0 on all others.
-ColumnMatrix on_functions(std::span<const Spectrum> values, int channels, Index functions, Index end) {
+/// Values of elements on their functions up to a degree, 0 on all others.
+/// @param degree  of elements
+ColumnMatrix on_functions(std::span<const Spectrum> values, int channels, Index functions,
+                          std::span<const int> degree) {
   const ColumnMatrix of_elements = to_columns(values, channels);
   ColumnMatrix out = ColumnMatrix::Zero(of_elements.rows() * functions, channels);
   for (Index i = 0; i < of_elements.rows(); ++i)
-    for (Index a = 0; a < end; ++a) out.row(i * functions + a) = of_elements.row(i);
+    for (Index a = 0; a < plane_functions(degree[static_cast<std::size_t>(i)]); ++a)
+      out.row(i * functions + a) = of_elements.row(i);
   return out;
 }
 
@@ -23,31 +27,30 @@ std::vector<Spectrum> means(const ColumnMatrix& coefficients, Index functions) {
   return to_spectra(first);
 }
 
-struct Fields {
-  ColumnMatrix radiosity, irradiance;
-  solvers::SolverReport report;
-};
-
-/// With the functions up to a degree alone.
-Fields solved(const RadiositySolution& s, const SymmetricOperator& K, int degree, Index functions,
-              const RadiositySettings& settings, int channels, Run& run) {
-  const solvers::Reflection R(on_functions(s.reflectance, channels, functions, plane_functions(degree)));
-  const ColumnMatrix e = on_functions(s.exitance, channels, functions, 1);
+/// With the functions up to a degree of each element alone.
+ElementFields solved(const RadiositySolution& s, const SymmetricOperator& K, std::span<const int> degree,
+                     Index functions, const RadiositySettings& settings, int channels, Run& run) {
+  const solvers::Reflection R(on_functions(s.reflectance, channels, functions, degree));
+  const ColumnMatrix e = on_functions(s.exitance, channels, functions, std::vector<int>(degree.size(), 0));
   solvers::SolverState state{e, 0};
-  Fields fields;
+  ElementFields fields;
   fields.report = solvers::make_solver(settings.solver)->advance({K, R, e}, state, settings.stopping, run);
   run.throw_if_stopped("solve");
   fields.radiosity = std::move(state.x);
   fields.irradiance.resize(e.rows(), e.cols());
   K.apply(fields.radiosity, fields.irradiance, run);
   divide_by(fields.irradiance, K.gram());
+  for (Index i = 0; i < std::ssize(degree); ++i) {
+    const Index active = plane_functions(degree[static_cast<std::size_t>(i)]);
+    fields.irradiance.middleRows(i * functions + active, functions - active).setZero();
+  }
   return fields;
 }
 
-/// Root mean square of the functions of the highest degree.
-Spectrum highest_degree(const ColumnMatrix& coefficients, Index element, int order, Index functions) {
+/// Root mean square of the functions of a degree.
+Spectrum of_degree(int degree, const ColumnMatrix& coefficients, Index element, Index functions) {
   Spectrum squares;
-  for (Index a = plane_functions(order - 1); a < functions; ++a)
+  for (Index a = plane_functions(degree - 1); a < plane_functions(degree); ++a)
     for (int c = 0; c < coefficients.cols(); ++c) {
       const double value = coefficients(element * functions + a, c);
       squares[c] += value * value;
@@ -57,23 +60,39 @@ Spectrum highest_degree(const ColumnMatrix& coefficients, Index element, int ord
 
 }  // namespace
 
-PolynomialChange solve_polynomials(RadiositySolution& s, const SymmetricOperator& blocks,
-                                   const RadiositySettings& settings, int channels, Run& run) {
-  const Index functions = plane_functions(settings.order);
-  const Fields fields = solved(s, blocks, settings.order, functions, settings, channels, run),
-               below = solved(s, blocks, settings.order - 1, functions, settings, channels, run);
+PolynomialChange solve_polynomials(RadiositySolution& s, const scene::Scene& scene, const SymmetricOperator& blocks,
+                                   std::span<const int> given, const RadiositySettings& settings, Run& run) {
+  const int channels = scene.channel_count(), order = settings.order;
+  const Index functions = plane_functions(order);
+  const bool linear = at_corners(settings.projection);
+  std::vector<int> degree(given.begin(), given.end());
+  if (degree.empty()) degree.assign(s.mesh.patches().size(), linear ? 1 : order);
+  std::vector<int> lower = degree;
+  for (int& p : lower) --p;
+  const ElementFields below = solved(s, blocks, lower, functions, settings, channels, run),
+                      fields =
+                          settings.projection == Projection::galerkin
+                              ? solved(s, blocks, degree, functions, settings, channels, run)
+                              : solve_at_nodes(node_equations(settings.projection, scene, s.mesh, order, blocks, run),
+                                               s, settings, channels, run);
   s.solver = fields.report;
   s.radiosity = means(fields.radiosity, functions);
   s.irradiance = means(fields.irradiance, functions);
   s.coarse_radiosity = means(below.radiosity, functions);
-  s.field = PolynomialField{settings.order, functions, {}, fields.radiosity, fields.irradiance, below.radiosity};
+  s.field = PolynomialField{order,
+                            functions,
+                            linear ? std::vector<int>(degree.size(), order) : degree,
+                            {},
+                            fields.radiosity,
+                            fields.irradiance,
+                            below.radiosity};
   for (const scene::SurfacePatch& patch : s.mesh.patches())
-    s.field->bases.emplace_back(settings.order, patch.ring(), patch.normal());
+    s.field->bases.emplace_back(order, patch.ring(), patch.normal());
   PolynomialChange change{fields.report.converged() && below.report.converged(), {}, {}};
   change.mean_irradiance = to_spectra(
       (to_columns(s.irradiance, channels) - to_columns(means(below.irradiance, functions), channels)).cwiseAbs());
   for (Index i = 0; i < static_cast<Index>(s.mesh.size()); ++i)
-    change.variation.push_back(highest_degree(fields.irradiance, i, settings.order, functions));
+    change.variation.push_back(of_degree(degree[static_cast<std::size_t>(i)], fields.irradiance, i, functions));
   return change;
 }
 

@@ -14,12 +14,13 @@ struct PolynomialChange {
   std::vector<Spectrum> variation;        ///< of irradiance: root mean square of functions of the highest degree
 };
 
-/// Solves for polynomials with the blocks of K: sets the solution's field, its radiosity and irradiance (means), its
+/// Solves for polynomials with the blocks of K, or at nodes where settings say so: sets the solution's field, its radiosity and irradiance (means), its
 /// coarse_radiosity (those of the order below) and the solver's report.
 ///
 /// @param blocks  K of all unknowns, element after element
+/// @param degree  of polynomials on elements, 1 .. settings.order; empty: the order, all
 /// Test: tests/fem/space/polynomial_radiosity.cpp
-PolynomialChange solve_polynomials(RadiositySolution& s, const SymmetricOperator& blocks,
-                                   const RadiositySettings& settings, int channels, Run& run);
+PolynomialChange solve_polynomials(RadiositySolution& s, const scene::Scene& scene, const SymmetricOperator& blocks,
+                                   std::span<const int> degree, const RadiositySettings& settings, Run& run);
 
 }  // namespace interflect::fem

@@ -14,6 +14,7 @@
 #include "fem/energy.h"
 #include "fem/error_estimate.h"
 #include "fem/goal/adaptive_elements.h"
+#include "fem/node_radiosity.h"
 #include "fem/polynomial_radiosity.h"
 #include "fem/radiosity_operator.h"
 
@@ -88,18 +89,27 @@ void set_materials(RadiositySolution& s, const scene::Scene& scene) {
 
 /// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
 /// @return  whether both solves converged
-bool solve_both(RadiositySolution& s, const SymmetricOperator& K, const RadiositySettings& settings, int channels,
-                Run& run) {
+bool solve_both(RadiositySolution& s, const scene::Scene& scene, const SymmetricOperator& K,
+                const RadiositySettings& settings, Run& run) {
+  const int channels = scene.channel_count();
   const solvers::ColumnMatrix e = to_columns(s.exitance, channels), rho = to_columns(s.reflectance, channels);
-  const solvers::ColumnMatrix B = solve_system(K, e, rho, settings, run, s.solver);
+  solvers::ColumnMatrix B, H(e.rows(), e.cols());
+  if (settings.projection == Projection::galerkin) {
+    B = solve_system(K, e, rho, settings, run, s.solver);
+    K.apply(B, H, run);
+    divide_by(H, K.gram());
+  } else {
+    ElementFields fields =
+        solve_at_nodes(node_equations(settings.projection, scene, s.mesh, 0, K, run), s, settings, channels, run);
+    B = std::move(fields.radiosity);
+    H = std::move(fields.irradiance);
+    s.solver = std::move(fields.report);
+  }
   solvers::SolverReport of_coarse;
   const auto coarse = aggregated(K, run);
   s.coarse_radiosity =
       to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, of_coarse)));
   run.throw_if_stopped("solve");  // what there is has no error yet, and is worth nothing without one
-  solvers::ColumnMatrix H(B.rows(), B.cols());
-  K.apply(B, H, run);
-  divide_by(H, K.gram());
   s.radiosity = to_spectra(B);
   s.irradiance = to_spectra(H);
   return s.solver.converged() && of_coarse.converged();
@@ -150,10 +160,36 @@ void balance_energy(RadiositySolution& s, const scene::Scene& scene, const rayca
 
 }  // namespace
 
+namespace {
+
+void require_compatible_projection(const RadiositySettings& settings) {
+  if (settings.projection == Projection::galerkin) return;
+  const auto refuse = [](const std::string& what) {
+    throw core::InputError("unknowns that are values at nodes", "they do not go with " + what);
+  };
+  if (settings.projection == Projection::centroids && settings.order != 0)
+    refuse("polynomials: at centroids there are constants, of order 0");
+  if (at_corners(settings.projection) && settings.order != 1)
+    refuse(core::format("order %d: between corners there are linear functions, of order 1", settings.order));
+  if (settings.adaptive) refuse("elements made for a goal");
+  if (settings.closure != "none") refuse("a closure that is restored");
+  if (settings.drop_below > 0) refuse("pairs left out (drop-below)");
+  if (settings.stored_factors) refuse("view factors of a file");
+}
+
+/// With quads, the order that holds what is bilinear between corners.
+int order_of_blocks(const RadiositySettings& settings, std::span<const scene::SurfacePatch> patches) {
+  const bool any_quad = std::any_of(patches.begin(), patches.end(), [](const auto& p) { return p.corners == 4; });
+  return at_corners(settings.projection) && any_quad ? 2 : settings.order;
+}
+
+}  // namespace
+
 void require_compatible(const RadiositySettings& settings) {
   if (settings.adaptive && (settings.order < 1 || settings.order > 2))
     throw core::InputError(core::format("polynomials of order %d", settings.order),
                            "elements are made for a goal with order 1 or 2");
+  require_compatible_projection(settings);
   if (settings.order == 0) return;
   const auto refuse = [&](const std::string& what) {
     throw core::InputError(core::format("polynomials of order %d", settings.order), "they do not go with " + what);
@@ -179,6 +215,7 @@ namespace {
 /// Elements and their form factors.
 struct Elements {
   mesh::ElementMesh mesh;
+  std::vector<int> degree;  ///< of polynomials on elements, where they differ; else empty
   RadiosityOperator from;
   std::optional<Adaptation> adaptation;
 };
@@ -188,24 +225,28 @@ Elements elements_with_factors(const scene::Scene& scene, const RadiositySetting
   if (settings.adaptive)
     return timed("adaptive elements", [&]() -> Elements {
       AdaptedElements made = adapt_elements(scene, settings, *settings.adaptive, rays, run);
-      return {std::move(made.mesh), std::move(made.from), std::move(made.adaptation)};
+      return {std::move(made.mesh), std::move(made.degree), std::move(made.from), std::move(made.adaptation)};
     });
   mesh::ElementMesh mesh = timed("mesh", [&] { return elements_of(scene, settings); });
   if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
+  RadiositySettings of_blocks = settings;
+  of_blocks.order = order_of_blocks(settings, mesh.patches());
   RadiosityOperator from =
-      timed("form factors", [&] { return assemble_operator(scene, mesh.patches(), rays, settings, run); });
-  return {std::move(mesh), std::move(from), std::nullopt};
+      timed("form factors", [&] { return assemble_operator(scene, mesh.patches(), rays, of_blocks, run); });
+  return {std::move(mesh), {}, std::move(from), std::nullopt};
 }
 
 }  // namespace
 
-RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
+RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& asked) {
   require_compatible(settings);
   const int channels = scene.channel_count();
   std::vector<StageCost> stages;
   StageClock timed(stages);
   const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
-  Elements elements = elements_with_factors(scene, settings, *rays, timed, run);
+  Elements elements = elements_with_factors(scene, settings, *rays, timed, asked);
+  const bool passes_stopped = elements.adaptation && elements.adaptation->why == AdaptiveStop::asked_to_stop;
+  Run run = passes_stopped ? asked.to_the_end() : asked;  // to the end with the elements that there are
   RadiosityOperator& from = elements.from;
   const double size = settings.adaptive ? elements.mesh.longest_edge() : element_size_of(scene, settings);
   RadiositySolution s(std::move(elements.mesh), size);
@@ -226,8 +267,10 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   s.rows = summary_of(s.row_sum, K.gram());
   PolynomialChange change;
   const bool converged = timed("solve", [&] {
-    if (settings.order == 0) return solve_both(s, K, settings, channels, run);
-    change = solve_polynomials(s, *from.blocks, settings, channels, run);
+    if (settings.order == 0) return solve_both(s, scene, K, settings, run);
+    RadiositySettings of_blocks = settings;
+    of_blocks.order = order_of_blocks(settings, s.mesh.patches());
+    change = solve_polynomials(s, scene, *from.blocks, elements.degree, of_blocks, run);
     return change.converged;
   });
   timed("error estimate", [&] {

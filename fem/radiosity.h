@@ -10,6 +10,7 @@
 #include "fem/form_factor/method.h"
 #include "fem/goal/adaptation.h"
 #include "fem/polynomial_field.h"
+#include "fem/projection.h"
 #include "mesh/element_mesh.h"
 #include "solvers/solver.h"
 
@@ -19,6 +20,7 @@ struct RadiositySettings {
   double element_size = 0;  ///< longest edge [m]; 0: see element_size_of
   std::string form_factors = "gauss-lambert";
   int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic` form factors alone
+  Projection projection = Projection::galerkin;
   std::string solver = "gauss-seidel";
   std::string intersector = "embree";
   solvers::StoppingRule stopping;

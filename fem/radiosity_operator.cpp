@@ -76,8 +76,8 @@ class Reordered final : public ExchangeSink {
 class Source {
  public:
   Source(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
-         const RadiositySettings& settings, Run& run)
-      : scene_(scene), patches_(patches), rays_(rays), settings_(settings), run_(run) {}
+         const RadiositySettings& settings, std::span<const int> degrees, Run& run)
+      : scene_(scene), patches_(patches), rays_(rays), settings_(settings), degrees_(degrees), run_(run) {}
 
   Filled fill(ExchangeSink& sink) const {
     if (settings_.row_tolerance > 0 && !settings_.stored_factors) return to_tolerance(sink);
@@ -95,6 +95,7 @@ class Source {
   std::unique_ptr<FormFactorMethod> method(double relative_tolerance) const {
     FormFactorContext context = form_factor_context(scene_, patches_, rays_, settings_, run_.seed);
     context.tolerance = relative_tolerance;
+    context.degrees = degrees_;
     auto method = make_form_factor_method(settings_.form_factors, context);
     require_memory(scene_, static_cast<double>(patches_.size()), settings_, method->granularity());
     return method;
@@ -114,6 +115,7 @@ class Source {
   std::span<const scene::SurfacePatch> patches_;
   const raycast::RayCaster& rays_;
   const RadiositySettings& settings_;
+  std::span<const int> degrees_;
   Run& run_;
 };
 
@@ -142,8 +144,9 @@ FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const
 }
 
 RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
-                                    const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run) {
-  const Source source(scene, patches, rays, settings, run);
+                                    const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run,
+                                    std::span<const int> degrees) {
+  const Source source(scene, patches, rays, settings, degrees, run);
   RadiosityOperator out;
   Filled filled;
   if (settings.order > 0) {
@@ -170,8 +173,9 @@ RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const s
 }
 
 RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<const Index> same_as,
-                                   const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
-                                   const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run) {
+                                   std::span<const int> degrees, const scene::Scene& scene,
+                                   std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
+                                   const RadiositySettings& settings, Run& run) {
   PolynomialOperator polynomials(patches, settings.order);
   BlockSink sink = polynomials.sink();
   std::vector<Index> order;  // those that stay, then those that are new
@@ -181,7 +185,11 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
   for (std::size_t i = 0; i < same_as.size(); ++i)
     if (same_as[i] < 0) order.push_back(static_cast<Index>(i));
   std::vector<scene::SurfacePatch> reordered;
-  for (const Index i : order) reordered.push_back(patches[static_cast<std::size_t>(i)]);
+  std::vector<int> reordered_degrees;
+  for (const Index i : order) {
+    reordered.push_back(patches[static_cast<std::size_t>(i)]);
+    reordered_degrees.push_back(degrees[static_cast<std::size_t>(i)]);
+  }
 
   const Index f = polynomials.functions;
   run.threads.for_blocks(kept, 1, [&](Index k, Index) {
@@ -194,6 +202,7 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
     }
   });
   FormFactorContext context = form_factor_context(scene, reordered, rays, settings, run.seed);
+  context.degrees = reordered_degrees;
   const auto method = make_form_factor_method(settings.form_factors, context);
   require_memory(scene, static_cast<double>(patches.size()), settings, method->granularity());
   Reordered to(sink, order, f);

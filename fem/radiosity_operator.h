@@ -29,13 +29,17 @@ FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const
 /// from `stored_factors`.
 /// @throws core::InputError  unknown method, or one that needs more memory than `max_memory` on the way
 /// @throws core::Interrupted
+/// @param degrees  of polynomials on elements, where they differ (FormFactorContext); empty: the order, all
 RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
-                                    const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run);
+                                    const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run,
+                                    std::span<const int> degrees = {});
 
 /// The same of polynomials, for elements of which some are those of `before`, whose pairs are taken from there.
-/// @param same_as  per element: which of the elements before it is; -1: it is new
+/// @param same_as  per element: which of the elements before it is; -1: it is new, or of a higher degree than it was
+/// @param degrees  per element, 1 .. settings.order
 RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<const Index> same_as,
-                                   const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
-                                   const raycast::RayCaster& rays, const RadiositySettings& settings, Run& run);
+                                   std::span<const int> degrees, const scene::Scene& scene,
+                                   std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
+                                   const RadiositySettings& settings, Run& run);
 
 }  // namespace interflect::fem

@@ -68,6 +68,13 @@ void require_area(const SurfacePatch& patch) {
 
 }  // namespace
 
+double longest_edge(const SurfacePatch& patch) {
+  double longest = 0;
+  for (std::size_t k = 0; k < patch.corners; ++k)
+    longest = std::max(longest, (patch.corner[(k + 1) % patch.corners] - patch.corner[k]).norm());
+  return longest;
+}
+
 ElementMesh::ElementMesh(std::vector<SurfacePatch> patches) : patches_(std::move(patches)) {
   if (patches_.size() > std::numeric_limits<std::uint32_t>::max()) throw core::InputError("more than 2^32 elements");
   std::vector<geometry::Box> boxes(patches_.size());
@@ -75,8 +82,7 @@ ElementMesh::ElementMesh(std::vector<SurfacePatch> patches) : patches_(std::move
     const SurfacePatch& patch = patches_[i];
     require_area(patch);
     boxes[i] = geometry::box_of(patch.ring());
-    for (std::size_t k = 0; k < patch.corners; ++k)
-      longest_edge_ = std::max(longest_edge_, (patch.corner[(k + 1) % patch.corners] - patch.corner[k]).norm());
+    longest_edge_ = std::max(longest_edge_, mesh::longest_edge(patch));
     if (parts_.empty() || key(parts_.back()) != key(patch)) {
       if (!parts_.empty() && key(patch) < key(parts_.back()))
         throw core::PreconditionError("elements must come surface after surface, fronts before backs");

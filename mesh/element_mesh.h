@@ -56,6 +56,8 @@ class ElementMesh {
   double longest_edge_ = 0;
 };
 
+double longest_edge(const scene::SurfacePatch& patch);  ///< [m]
+
 /// Coordinates of a point of an element's plane: clamped into the element.
 ElementPoint coordinates_in(const scene::SurfacePatch& patch, ElementId id, const Vec3& position);
 

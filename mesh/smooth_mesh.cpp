@@ -1,8 +1,8 @@
 #include "mesh/smooth_mesh.h"
 
-#include <cmath>
-#include <map>
 #include <set>
+
+#include "mesh/shared_points.h"
 
 namespace interflect::mesh {
 namespace {
@@ -20,12 +20,6 @@ class Side {
   }
 
  private:
-  /// A point that elements of about this normal share.
-  struct Shared {
-    std::uint32_t point;
-    Vec3 normal;
-  };
-
   void append(std::uint32_t element) {
     const scene::SurfacePatch& patch = mesh_.patches()[element];
     const Vec3 normal = patch.normal(), middle = patch.centroid();
@@ -64,21 +58,19 @@ class Side {
     return static_cast<std::uint32_t>(out_.points.size() - 1);
   }
   std::uint32_t shared(const Vec3& p, const Vec3& normal, std::uint32_t element) {
-    static const double nearly_flat = std::cos(pi / 9);
-    std::vector<Shared>& here = known_[key(p)];
-    for (const Shared& s : here)
-      if (s.normal.dot(normal) > nearly_flat) {
-        if (out_.around[s.point].back() != element) out_.around[s.point].push_back(element);
-        return s.point;
-      }
-    here.push_back({own(p, element), normal});
-    return here.back().point;
+    if (const auto known = shared_.find(p, normal)) {
+      if (out_.around[*known].back() != element) out_.around[*known].push_back(element);
+      return *known;
+    }
+    const std::uint32_t point = own(p, element);
+    shared_.add(p, normal, point);
+    return point;
   }
 
   const ElementMesh& mesh_;
   SmoothMesh& out_;
   std::set<Key> corners_;
-  std::map<Key, std::vector<Shared>> known_;
+  SharedPoints shared_;
 };
 
 }  // namespace

@@ -98,6 +98,14 @@ ElementMesh both_sides(const scene::Scene& scene, const Front& front_of) {
   return ElementMesh(std::move(patches));
 }
 
+void require_few_enough(const scene::Scene& scene, double max_edge) {
+  if (!(max_edge > 0) || !std::isfinite(max_edge))
+    throw core::InputError("element size", core::format("a positive length expected, not %g m", max_edge));
+  if (const double count = predicted_elements(scene, max_edge); !(count <= most_elements))
+    throw core::InputError("element size",
+                           core::format("%g m makes %.1e elements, at most 2^31 expected", max_edge, count));
+}
+
 }  // namespace
 
 ElementMesh whole_faces(const scene::Scene& scene) {
@@ -105,12 +113,19 @@ ElementMesh whole_faces(const scene::Scene& scene) {
 }
 
 ElementMesh uniform(const scene::Scene& scene, double max_edge) {
-  if (!(max_edge > 0) || !std::isfinite(max_edge))
-    throw core::InputError("element size", core::format("a positive length expected, not %g m", max_edge));
-  if (const double count = predicted_elements(scene, max_edge); !(count <= most_elements))
-    throw core::InputError("element size",
-                           core::format("%g m makes %.1e elements, at most 2^31 expected", max_edge, count));
+  require_few_enough(scene, max_edge);
   return both_sides(scene, [&](SurfaceId id) { return front_elements(scene, id, max_edge); });
+}
+
+ElementMesh coarse(const scene::Scene& scene, double max_edge) {
+  require_few_enough(scene, max_edge);
+  ElementMesh mesh = whole_faces(scene);
+  while (mesh.longest_edge() > max_edge) {
+    std::vector<bool> too_long;
+    for (const SurfacePatch& patch : mesh.patches()) too_long.push_back(longest_edge(patch) > max_edge);
+    mesh = quartered(mesh, too_long).mesh;
+  }
+  return mesh;
 }
 
 ElementMesh quartered(const ElementMesh& mesh) {

@@ -20,6 +20,11 @@ ElementMesh uniform(const scene::Scene& scene, double max_edge);
 /// @throws core::InputError  as `uniform`, where an element is too thin for its coordinates
 ElementMesh whole_faces(const scene::Scene& scene);
 
+/// Whole faces, those with an edge longer than `max_edge` [m] cut into four again and again: few elements, whose corners
+/// may hang, and more than `uniform` makes of a needle.
+/// @throws core::InputError  as `uniform`
+ElementMesh coarse(const scene::Scene& scene, double max_edge);
+
 /// Every element cut into four, at the midpoints of its edges: children 4i .. 4i+3 of element i, in order.
 ElementMesh quartered(const ElementMesh& mesh);
 

@@ -107,6 +107,8 @@ SolverReport GaussSeidel::advance(const System& system, SolverState& state, cons
   const RowAccess* rows = system.K.rows();
   if (rows == nullptr)
     throw core::InputError("solver 'gauss-seidel'", "an operator with rows expected; use 'jacobi' here");
+  if (!system.R.diagonal())
+    throw core::InputError("solver 'gauss-seidel'", "reflectance varies inside elements; use 'jacobi' here");
   require_solvable(system);
   if (!prepare(system, state)) return {.why = SolverReport::Stopped::nothing_to_do};
 

@@ -1,11 +1,32 @@
 #include "solvers/system_check.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/format.h"
 
 namespace interflect::solvers {
+namespace {
+
+void require_blocks(const System& system) {
+  constexpr double rounding = 1e-9;
+  for (const Reflection::Block& block : system.R.blocks()) {
+    if (std::ssize(block.of_channel) != system.e.cols())
+      throw core::PreconditionError("solve: a block of R has another number of channels");
+    for (const Eigen::MatrixXd& R : block.of_channel) {
+      if (R.rows() != R.cols() || block.first < 0 || block.first + R.rows() > system.e.rows())
+        throw core::PreconditionError("solve: a block of R has another shape");
+      const Eigen::VectorXd rho =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(R, Eigen::EigenvaluesOnly).eigenvalues();
+      if (!(rho.minCoeff() >= -rounding && rho.maxCoeff() <= 1 + rounding))
+        throw core::InputError(
+            core::format("reflectance of unknowns from %td on: 0 <= reflectance <= 1 expected", block.first));
+    }
+  }
+}
+
+}  // namespace
 
 void require_solvable(const System& system) {
   const ColumnMatrix& rho = system.R.reflectance();
@@ -14,7 +35,7 @@ void require_solvable(const System& system) {
   if (static_cast<Index>(G.size()) != n || system.e.rows() != n || rho.rows() != n || rho.cols() != system.e.cols())
     throw core::PreconditionError("solve: K, R and e have different shapes");
   for (Index c = 0; c < rho.cols(); ++c)
-    if (n > 0 && (rho.col(c).array() >= 1).all())
+    if (n > 0 && system.R.diagonal() && (rho.col(c).array() >= 1).all())
       throw core::InputError("every reflectance is 1: where nothing is absorbed there is no answer");
   for (Index a = 0; a < n; ++a) {
     if (const double area = G[static_cast<std::size_t>(a)]; !(area > 0) || !std::isfinite(area))
@@ -28,6 +49,7 @@ void require_solvable(const System& system) {
         throw core::InputError(core::format("exitance %g of unknown %td: a finite number expected", system.e(a, c), a));
     }
   }
+  require_blocks(system);
 }
 
 bool prepare(const System& system, SolverState& state) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "core/run.h"
 #include "core/vec.h"
@@ -37,16 +38,31 @@ class TransportOperator {
   virtual const RowAccess* rows() const { return nullptr; }
 };
 
-/// b = e + R h: diagonal in the unknowns and the channels here (constants); columns as in `Columns`.
+/// b = e + R h per channel; columns as in `Columns`.  Diagonal where reflectance is one number on an element.  Where it
+/// varies inside, a block of the element's unknowns,
+///
+///   R_ab = 1/A int rho N_a N_b,     symmetric, with eigenvalues between the least and the largest rho
 class Reflection {
  public:
+  struct Block {
+    Index first;                              ///< unknown
+    std::vector<Eigen::MatrixXd> of_channel;  ///< functions x functions
+  };
+
   explicit Reflection(ColumnMatrix reflectance) : reflectance_(std::move(reflectance)) {}
-  const ColumnMatrix& reflectance() const { return reflectance_; }
-  void add_reflected(ConstColumns h, Columns b) const { b.array() += reflectance_.array() * h.array(); }
+  /// @param reflectance  of the unknowns that are in no block; 0 for the others
+  Reflection(ColumnMatrix reflectance, std::vector<Block> blocks)
+      : reflectance_(std::move(reflectance)), blocks_(std::move(blocks)) {}
+
+  const ColumnMatrix& reflectance() const { return reflectance_; }  ///< of unknowns in no block
+  std::span<const Block> blocks() const { return blocks_; }
+  bool diagonal() const { return blocks_.empty(); }
+  void add_reflected(ConstColumns h, Columns b) const;
   double max() const { return reflectance_.size() > 0 ? reflectance_.maxCoeff() : 0.0; }
 
  private:
   ColumnMatrix reflectance_;
+  std::vector<Block> blocks_;
 };
 
 }  // namespace interflect::solvers

@@ -1,5 +1,7 @@
 #include "fem/form_factor/analytic_moments.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "fem/form_factor/hidden_pairs.h"
 
@@ -8,15 +10,16 @@ namespace interflect::fem {
 class AnalyticMoments::Work final : public PairWork {
  public:
   explicit Work(const AnalyticMoments& method)
-      : moments_(method.moments_),
+      : method_(method),
         hidden_(method.shapes(), method.blockers(), method.context().tolerance),
         accuracy_(0.1 * method.context().tolerance) {}
 
   void clear(Index i, Index j, const PairIntegral& K, ExchangeSink& sink) override {
-    write(i, j, moments_(i, j, K), sink);
+    write(i, j, method_.moments(i, j)(i, j, K), sink);
   }
   void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) override {
-    const PlaneBasis &of_i = moments_.basis(pair.i), &of_j = moments_.basis(pair.j);
+    const MomentIntegrator& moments = method_.moments(pair.i, pair.j);
+    const PlaneBasis &of_i = moments.basis(pair.i), &of_j = moments.basis(pair.j);
     PairMoments hidden{Moments::Zero(of_i.size(), of_j.size()), 0};
     const bool all = hidden_(
         pair, counts,
@@ -31,7 +34,7 @@ class AnalyticMoments::Work final : public PairWork {
           hidden.error += part.error;
         });
     if (all) return;
-    PairMoments block = moments_(pair.i, pair.j, pair.unoccluded);
+    PairMoments block = moments(pair.i, pair.j, pair.unoccluded);
     block.value -= hidden.value;
     block.error += hidden.error + accuracy_ * pair.unoccluded.value;
     write(pair.i, pair.j, block, sink);
@@ -39,20 +42,32 @@ class AnalyticMoments::Work final : public PairWork {
 
  private:
   void write(Index i, Index j, const PairMoments& block, ExchangeSink& sink) const {
-    const Index n = moments_.functions();
-    for (Index a = 0; a < n; ++a)
-      for (Index b = 0; b < n; ++b) sink.add(i * n + a, j * n + b, {block.value(a, b), 0, block.error});
+    const Index n = plane_functions(method_.context().order);
+    for (Index a = 0; a < block.value.rows(); ++a)
+      for (Index b = 0; b < block.value.cols(); ++b)
+        sink.add(i * n + a, j * n + b, {block.value(a, b), 0, block.error});
   }
 
-  const MomentIntegrator& moments_;
+  const AnalyticMoments& method_;
   HiddenPairs<MomentIntegrand> hidden_;
   double accuracy_;  ///< of far parts' irradiance, relative
 };
 
-AnalyticMoments::AnalyticMoments(const FormFactorContext& context)
-    : PairMethod(context), moments_(shapes(), context.order, context.tolerance) {
+AnalyticMoments::AnalyticMoments(const FormFactorContext& context) : PairMethod(context) {
   if (context.order < 1 || context.order > ElementBasis::highest_order)
     throw core::PreconditionError("AnalyticMoments: an order of 1 .. 3 expected");
+  for (const int degree : context.degrees)
+    if (degree < 1 || degree > context.order)
+      throw core::PreconditionError("AnalyticMoments: degrees of 1 .. order expected");
+  const int lowest = context.degrees.empty() ? context.order : 1;
+  for (int order = lowest; order <= context.order; ++order) moments_.emplace_back(shapes(), order, context.tolerance);
+}
+
+const MomentIntegrator& AnalyticMoments::moments(Index i, Index j) const {
+  const std::span<const int> degrees = context().degrees;
+  if (degrees.empty()) return moments_.back();
+  const auto degree = [&](Index element) { return degrees[static_cast<std::size_t>(element)]; };
+  return moments_[static_cast<std::size_t>(std::max(degree(i), degree(j)) - 1)];
 }
 
 std::unique_ptr<PairWork> AnalyticMoments::work() const { return std::make_unique<Work>(*this); }

@@ -78,6 +78,9 @@ struct FormFactorContext {
   int visibility_rays = 16;  ///< per pair that is neither clear nor dark; at least 4
   int resolution = 256;      ///< cells across the top of a hemicube, or across a plane
   int order = 0;             ///< of the polynomials on an element: a method's highest_order at most
+  /// Of elements, where they differ, 1 .. order: entries of two functions are wanted up to the higher degree of their
+  /// elements, and are left 0 beyond.  Empty: `order`, all.
+  std::span<const int> degrees{};
   std::uint64_t samples =
       0;  ///< of a Monte Carlo method: a pair, a row, or in all; 0: as many as the tolerance asks for
 };

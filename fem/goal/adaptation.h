@@ -17,7 +17,8 @@ struct AdaptiveSettings {
 
 /// One mesh on the way.
 struct AdaptivePass {
-  Index elements, unknowns;
+  Index elements;
+  Index unknowns;       ///< functions of elements, by their degrees
   Spectrum value;       ///< of the goal
   Spectrum correction;  ///< estimate of what it lacks
   Spectrum error;       ///< estimated bound
@@ -25,7 +26,7 @@ struct AdaptivePass {
   double seconds;       ///< since the start
 };
 
-enum class AdaptiveStop { met, memory, passes, only_asked, no_light };
+enum class AdaptiveStop { met, memory, passes, only_asked, asked_to_stop, no_light };
 std::string describe(AdaptiveStop why);
 
 /// How elements came about that were made for a goal; there is a pass at least.

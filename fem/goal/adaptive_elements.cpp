@@ -18,43 +18,61 @@ namespace {
 using solvers::ColumnMatrix;
 
 constexpr double marked_share = 0.7, missed = 2, cancelling_share = 0.1;
+/// Decay (dual_weighted.h) from which on a degree more is worth its unknowns: the product of both kinds of coefficients
+/// falls to a half from degree to degree.
+constexpr double smooth = 0.7;
 
 /// Coarse, but not so coarse that a pass sees nothing of the room.
 mesh::ElementMesh first_elements(const scene::Scene& scene, const RadiositySettings& settings,
                                  const AdaptiveSettings& adaptive) {
   constexpr double few = 60;
   if (!(adaptive.target > 0)) return elements_of(scene, settings);
-  return mesh::uniform(scene, settings.element_size > 0 ? settings.element_size : mesh::edge_for(scene, few));
+  if (settings.element_size > 0) return mesh::uniform(scene, settings.element_size);
+  return mesh::coarse(scene, mesh::edge_for(scene, few));
 }
 
-/// What emits and what reflects, of unknowns: exitance of first functions, reflectance of all.
+/// What emits and what reflects, of unknowns: exitance of first functions, reflectance of those up to the degree.
 struct Materials {
   ColumnMatrix e, R;
 
-  Materials(const scene::Scene& scene, const mesh::ElementMesh& mesh, Index functions)
+  Materials(const scene::Scene& scene, const mesh::ElementMesh& mesh, std::span<const int> degree, Index functions)
       : e(ColumnMatrix::Zero(mesh.size() * functions, scene.channel_count())), R(e) {
     for (Index i = 0; i < mesh.size(); ++i) {
-      const scene::SurfacePatch& patch = mesh.patches()[static_cast<std::size_t>(i)];
+      const auto element = static_cast<std::size_t>(i);
+      const scene::SurfacePatch& patch = mesh.patches()[element];
       const scene::Material& material = scene.material(patch.surface);
       const Spectrum exitance = material.exitance_of(patch.side), reflectance = material.reflectance_of(patch.side);
       for (int c = 0; c < scene.channel_count(); ++c) {
         e(i * functions, c) = exitance[c];
-        R.col(c).segment(i * functions, functions).setConstant(reflectance[c]);
+        R.col(c).segment(i * functions, plane_functions(degree[element])).setConstant(reflectance[c]);
       }
     }
   }
 };
 
-DualWeighted estimate(const scene::Scene& scene, const mesh::ElementMesh& mesh, const RadiosityOperator& from,
-                      const RadiositySettings& settings, const Goal& goal, const raycast::RayCaster& rays, Run& run) {
-  const auto [e, R] = Materials(scene, mesh, plane_functions(settings.order));
-  const std::vector<int> degree(mesh.patches().size(), settings.order);
+Index unknowns(std::span<const int> degree) {
+  Index sum = 0;
+  for (const int p : degree) sum += plane_functions(p);
+  return sum;
+}
+
+/// A mesh on the way, with its form factors.
+struct Elements {
+  mesh::ElementMesh mesh;
+  std::vector<int> degree;
+  RadiosityOperator from;
+};
+
+DualWeighted estimate(const scene::Scene& scene, const Elements& elements, const RadiositySettings& settings,
+                      const Goal& goal, const raycast::RayCaster& rays, Run& run) {
+  const SymmetricOperator& K = *elements.from.blocks;
+  const auto [e, R] = Materials(scene, elements.mesh, elements.degree, plane_functions(settings.order));
   solvers::SolverState state{e, 0};
   const solvers::Reflection reflection(R);
   const auto solver = solvers::make_solver(settings.solver);
-  solver->advance({*from.blocks, reflection, e}, state, settings.stopping, run);
+  solver->advance({K, reflection, e}, state, settings.stopping, run);
   run.throw_if_stopped("solve");
-  return dual_weighted({scene, mesh, settings.order, degree, *from.blocks, R, e, settings.quadrature_tolerance},
+  return dual_weighted({scene, elements.mesh, settings.order, elements.degree, K, R, e, settings.quadrature_tolerance},
                        state.x, goal, rays, *solver, settings.stopping, run);
 }
 
@@ -75,12 +93,33 @@ std::vector<bool> marked(const scene::Scene& scene, const DualWeighted& found) {
   return which;
 }
 
-/// For refined_operator: the element before, of those that stay.
-std::vector<Index> same_as(const mesh::PartlyQuartered& refined, const std::vector<bool>& which) {
-  std::vector<Index> same;
-  for (const std::size_t parent : refined.parent)
-    same.push_back(which[parent] ? Index{-1} : static_cast<Index>(parent));
-  return same;
+/// What becomes of marked elements.
+struct Refinement {
+  std::vector<bool> cut, raised;
+};
+Refinement refinement_of(const std::vector<bool>& marked, const DualWeighted& found, std::span<const int> degree,
+                         int highest) {
+  Refinement out{marked, std::vector<bool>(marked.size(), false)};
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    out.raised[i] = marked[i] && degree[i] < highest && found.decay[i] >= smooth;
+    out.cut[i] = marked[i] && !out.raised[i];
+  }
+  return out;
+}
+
+struct Refined {
+  mesh::ElementMesh mesh;
+  std::vector<int> degree;
+  std::vector<Index> same_as;  ///< as refined_operator wants it
+};
+Refined refined(const Elements& before, const Refinement& how) {
+  mesh::PartlyQuartered cut = mesh::quartered(before.mesh, how.cut);
+  Refined out{std::move(cut.mesh), {}, {}};
+  for (const std::size_t parent : cut.parent) {
+    out.degree.push_back(before.degree[parent] + (how.raised[parent] ? 1 : 0));
+    out.same_as.push_back(how.cut[parent] || how.raised[parent] ? Index{-1} : static_cast<Index>(parent));
+  }
+  return out;
 }
 
 Spectrum bound_of(const DualWeighted& found) {
@@ -109,40 +148,91 @@ std::string describe(AdaptiveStop why) {
       return "as many passes as there may be";
     case AdaptiveStop::only_asked:
       return "no target was set";
+    case AdaptiveStop::asked_to_stop:
+      return "asked to stop";
     case AdaptiveStop::no_light:
       break;
   }
   return "no light reaches the goal";
 }
 
+namespace {
+
+/// Pass after pass.
+class Passes {
+ public:
+  Passes(const scene::Scene& scene, const RadiositySettings& settings, const AdaptiveSettings& adaptive,
+         const raycast::RayCaster& rays, Run& run)
+      : scene_(scene), settings_(settings), adaptive_(adaptive), rays_(rays), run_(run) {}
+
+  AdaptedElements all() {
+    Elements elements = first();
+    Adaptation adaptation{adaptive_.goal, {}, AdaptiveStop::passes};
+    DualWeighted found = pass(elements, adaptation);
+    try {
+      for (;;) {
+        const AdaptivePass& last = adaptation.passes.back();
+        const double value = scene_.weigh(last.value), error = scene_.weigh(last.error);
+        const auto passes = static_cast<int>(adaptation.passes.size());
+        if (const auto stop = reason_to_stop(value, error, passes, adaptive_)) {
+          adaptation.why = *stop;
+          break;
+        }
+        std::optional<Elements> next = refine(elements, found);
+        if (!next) {
+          adaptation.why = AdaptiveStop::memory;
+          break;
+        }
+        found = pass(*next, adaptation);
+        elements = std::move(*next);
+      }
+    } catch (const core::Interrupted&) {
+      adaptation.why = AdaptiveStop::asked_to_stop;
+    }
+    return {std::move(elements.mesh), std::move(elements.degree), std::move(elements.from), std::move(adaptation)};
+  }
+
+ private:
+  Elements first() const {
+    mesh::ElementMesh mesh = first_elements(scene_, settings_, adaptive_);
+    if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
+    std::vector<int> degree(mesh.patches().size(), adaptive_.target > 0 ? 1 : settings_.order);
+    RadiosityOperator from = assemble_operator(scene_, mesh.patches(), rays_, settings_, run_, degree);
+    return {std::move(mesh), std::move(degree), std::move(from)};
+  }
+
+  DualWeighted pass(const Elements& elements, Adaptation& adaptation) const {
+    DualWeighted found = estimate(scene_, elements, settings_, adaptive_.goal, rays_, run_);
+    const Spectrum bound = bound_of(found);
+    const double value = scene_.weigh(found.value);
+    adaptation.passes.push_back({elements.mesh.size(), unknowns(elements.degree), found.value, found.correction, bound,
+                                 value > 0 ? scene_.weigh(bound) / value : 0.0, core::seconds_since(start_)});
+    return found;
+  }
+
+  /// Nothing, where there is no memory for it.
+  std::optional<Elements> refine(const Elements& before, const DualWeighted& found) const {
+    Refined next = refined(before, refinement_of(marked(scene_, found), found, before.degree, settings_.order));
+    const double both = std::hypot(static_cast<double>(next.mesh.size()), static_cast<double>(before.mesh.size()));
+    if (!fits_memory(both, settings_, FormFactorMethod::Granularity::pair)) return std::nullopt;
+    RadiosityOperator from =
+        refined_operator(before.from, next.same_as, next.degree, scene_, next.mesh.patches(), rays_, settings_, run_);
+    return Elements{std::move(next.mesh), std::move(next.degree), std::move(from)};
+  }
+
+  const scene::Scene& scene_;
+  const RadiositySettings& settings_;
+  const AdaptiveSettings& adaptive_;
+  const raycast::RayCaster& rays_;
+  Run& run_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
 AdaptedElements adapt_elements(const scene::Scene& scene, const RadiositySettings& settings,
                                const AdaptiveSettings& adaptive, const raycast::RayCaster& rays, Run& run) {
-  const auto start = std::chrono::steady_clock::now();
-  mesh::ElementMesh first = first_elements(scene, settings, adaptive);
-  if (first.size() == 0) throw core::InputError("the scene has no surface that light could leave");
-  RadiosityOperator from = assemble_operator(scene, first.patches(), rays, settings, run);
-  AdaptedElements out{std::move(first), std::move(from), {adaptive.goal, {}, AdaptiveStop::passes}};
-  for (int pass = 1;; ++pass) {
-    const DualWeighted found = estimate(scene, out.mesh, out.from, settings, adaptive.goal, rays, run);
-    const Spectrum bound = bound_of(found);
-    const double value = scene.weigh(found.value), error = scene.weigh(bound);
-    out.adaptation.passes.push_back({out.mesh.size(), out.mesh.size() * plane_functions(settings.order), found.value,
-                                     found.correction, bound, value > 0 ? error / value : 0.0,
-                                     core::seconds_since(start)});
-    if (const auto stop = reason_to_stop(value, error, pass, adaptive)) {
-      out.adaptation.why = *stop;
-      return out;
-    }
-    const std::vector<bool> which = marked(scene, found);
-    mesh::PartlyQuartered refined = mesh::quartered(out.mesh, which);
-    const double both = std::hypot(static_cast<double>(refined.mesh.size()), static_cast<double>(out.mesh.size()));
-    if (!fits_memory(both, settings, FormFactorMethod::Granularity::pair)) {
-      out.adaptation.why = AdaptiveStop::memory;
-      return out;
-    }
-    out.from = refined_operator(out.from, same_as(refined, which), scene, refined.mesh.patches(), rays, settings, run);
-    out.mesh = std::move(refined.mesh);
-  }
+  return Passes(scene, settings, adaptive, rays, run).all();
 }
 
 }  // namespace interflect::fem

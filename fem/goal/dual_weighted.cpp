@@ -25,6 +25,19 @@ Spectrum spectrum_of(const Eigen::RowVectorXd& values) {
   return out;
 }
 
+/// How fast coefficients fall from degree 1 to the highest, 3, per degree; those that do not matter count as `least`.
+/// @param functions  rich functions x channels
+double decay_of(const scene::Scene& scene, const Eigen::Ref<const ColumnMatrix>& functions) {
+  const auto of_degree = [&](int degree) {
+    const Index first = degree == 0 ? 0 : plane_functions(degree - 1), count = plane_functions(degree) - first;
+    return scene.weigh(spectrum_of(functions.middleRows(first, count).colwise().norm()));
+  };
+  constexpr double least = 1e-6;  // of the mean: what T is known to, and less
+  const double floor = least * of_degree(0);
+  if (!(floor > 0)) return 0;
+  return 0.5 * std::log(std::max(of_degree(1), floor) / std::max(of_degree(3), floor));
+}
+
 class Estimator {
  public:
   Estimator(const ElementSystem& system, GoalWeights weights)
@@ -97,7 +110,8 @@ class Estimator {
       const PlaneBasis basis(weights_.order, patch.ring(), patch.normal());
       const Index active = plane_functions(system_.degree[element]);
       Eigen::RowVectorXd product = Eigen::RowVectorXd::Zero(channels), r_squares = product, z_squares = product;
-      ColumnMatrix r_functions = ColumnMatrix::Zero(rich_functions_, channels);
+      ColumnMatrix r_functions = ColumnMatrix::Zero(rich_functions_, channels),
+                   of_transported = ColumnMatrix::Zero(rich_functions_, 2 * channels);
       for (std::size_t q = nodes.first[element]; q < nodes.first[element + 1]; ++q) {
         const SurfaceNode& node = nodes.nodes[q];
         const PlaneBasis::Values N = basis.at(node.position);
@@ -110,6 +124,7 @@ class Estimator {
         z_squares += node.weight * zeta.cwiseAbs2();
         largest = largest.cwiseMax(r.cwiseAbs());
         r_functions += (node.weight / patch.area) * N * r;
+        of_transported += (node.weight / patch.area) * N * at.row(static_cast<Index>(q));
       }
       Eigen::RowVectorXd size = (r_squares.array() * z_squares.array()).sqrt();
       for (Index a = active; a < rich_functions_; ++a) {
@@ -122,6 +137,8 @@ class Estimator {
       total += patch.area;
       out.of_elements.push_back(spectrum_of(product));
       out.size.push_back(spectrum_of(size));
+      out.decay.push_back(decay_of(system_.scene, of_transported.leftCols(channels)) +
+                          decay_of(system_.scene, of_transported.rightCols(channels)));
     }
     out.correction = spectrum_of(correction);
     out.residual = spectrum_of((residual / total).cwiseSqrt());

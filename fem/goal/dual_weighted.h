@@ -29,6 +29,7 @@ struct DualWeighted {
   Spectrum by_importance;             ///< J(B_h) once more, by the importance: <z_h, e>
   std::vector<Spectrum> of_elements;  ///< what elements add to the correction
   std::vector<Spectrum> size;         ///< sqrt(int zeta² int r²) of elements: what a better mesh may change there
+  std::vector<double> decay;          ///< of elements: of T B_h's and T w_h's Legendre coefficients, see below
   Spectrum quadrature;                ///< what K's own errors do to it: root of the sum of squares
   Spectrum residual;                  ///< sqrt(int r² / area): of the radiosity
   Spectrum largest_residual;          ///< |r| at nodes
@@ -47,6 +48,14 @@ struct DualWeighted {
 /// with T B_h and T w_h at Gauss nodes of every element, past whatever hides (iterated_transport.h); c - c_h is of the
 /// functions of degree up to 3, since points and pixels have no density of their own.  The error of z in its place is
 /// one bounce of the importance's own residual, which is smaller as the iterated solution is than B_h.
+///
+/// Where both are smooth inside an element their coefficients in orthonormal polynomials fall like exp(-s degree), and a
+/// higher degree pays; along shadows' edges they fall like a power of it, and cuts pay [Mavriplis 1994; Houston, Sueli
+/// 2005].  With c_k the root of the sum of squares of T B_h's coefficients of degree k, and d_k of T w_h's,
+///
+///   decay = 1/2 ln (c_1 / c_3) + 1/2 ln (d_1 / d_3),
+///
+/// the slopes of straight lines fitted to ln c_k and ln d_k, k = 1 .. 3.
 ///
 /// K's entries are off by up to `tolerance` of them, each in its own way:
 ///

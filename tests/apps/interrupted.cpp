@@ -64,6 +64,23 @@ TEST(Interrupted, a_solution_is_kept_without_its_bounds) {
   EXPECT_EQ(json_of(folder / "out/summary.json").at("stopped"), true);
 }
 
+TEST(Interrupted, elements_made_so_far_are_solved_and_kept) {
+  const TemporaryFolder folder;
+  const Outcome solve = interflect({"solve", shipped_scene("two_rooms"), "--target-error", "0.001%", "--goal",
+                                    "dark_plane", "--threads", "2", "--no-pictures", "-o", folder / "out"},
+                                   {.interrupt_when = [](const std::string& err) {  // in a later pass
+                                     const auto first = err.find("100 %");
+                                     return first != std::string::npos && contains(err.substr(first), "form factors");
+                                   }});
+  EXPECT_EQ(solve.status, 1) << solve.err;
+  EXPECT_TRUE(contains(solve.err, "asked to stop")) << solve.err;
+  const nlohmann::json summary = json_of(folder / "out/summary.json");
+  EXPECT_EQ(summary.at("adaptation").at("stopped"), "asked to stop");
+  EXPECT_GE(summary.at("adaptation").at("passes").size(), 1u);
+  EXPECT_EQ(summary.at("stopped"), true);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/sensors.csv"));
+}
+
 TEST(Interrupted, a_solve_without_form_factors_leaves_nothing) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";

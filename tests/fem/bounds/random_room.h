@@ -30,8 +30,9 @@ inline scene::Scene random_room(std::mt19937& random, double scale = 1) {
     const Vec3 &a = floor[k], &b = floor[(k + 1) % 4];
     add("wall", {a, a + up, b + up, b}, k == 0 ? .3 : k == 1 ? part(random) : 0);
   }
-  const Vec3 low(.55 + .2 * part(random), .2 * d + .2 * part(random), .15 + .1 * part(random));
-  const Vec3 size(.3 + .2 * part(random), .3 + .2 * part(random), .3 + .2 * part(random));
+  // In braces: drawn in this order by every compiler.
+  const Vec3 low{.55 + .2 * part(random), .2 * d + .2 * part(random), .15 + .1 * part(random)};
+  const Vec3 size{.3 + .2 * part(random), .3 + .2 * part(random), .3 + .2 * part(random)};
   const auto body = builder.add_material(diffuse(reflectance()));
   builder.add_box("body", geometry::Box(scale * low, scale * (low + size)), body, scene::SceneBuilder::Facing::outward,
                   [](const Vec3& x) { return x; });

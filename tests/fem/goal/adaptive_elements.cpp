@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "fem/space/polynomials.h"
 #include "mesh/uniform.h"
 #include "tests/fem/rooms.h"
 
@@ -55,7 +58,9 @@ TEST(AdaptiveElements, have_the_form_factors_that_they_would_have_alone) {
     std::vector<Index> same;
     for (const std::size_t parent : refined.parent)
       same.push_back(which[parent] ? Index{-1} : static_cast<Index>(parent));
-    const RadiosityOperator K = refined_operator(from, same, scene, refined.mesh.patches(), *rays, settings, run.get()),
+    const std::vector<int> degrees(same.size(), order);
+    const RadiosityOperator K = refined_operator(from, same, degrees, scene, refined.mesh.patches(), *rays, settings,
+                                                 run.get()),
                             alone = assemble_operator(scene, refined.mesh.patches(), *rays, settings, run.get());
     ASSERT_EQ(K.blocks->size(), alone.blocks->size());
     for (Index a = 0; a < K.blocks->size(); ++a)
@@ -64,6 +69,71 @@ TEST(AdaptiveElements, have_the_form_factors_that_they_would_have_alone) {
     const std::vector<double> sums = K.K->row_sums(run.get());
     for (const double sum : sums) EXPECT_NEAR(sum, 1, 1e-4);
   }
+}
+
+// A pair has the functions that the higher degree of its elements needs, and nothing beyond.
+TEST(AdaptiveElements, of_two_degrees_have_blocks_of_the_higher_one) {
+  const scene::Scene scene = two_rooms();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  core::LocalRun run(1, 2);
+  const RadiositySettings settings = settings_of(2);
+  const mesh::ElementMesh mesh = mesh::uniform(scene, 2.1);
+  std::vector<int> degree(mesh.patches().size(), 1);
+  for (std::size_t i = 0; i < degree.size(); i += 3) degree[i] = 2;
+  const RadiosityOperator all = assemble_operator(scene, mesh.patches(), *rays, settings, run.get()),
+                          some = assemble_operator(scene, mesh.patches(), *rays, settings, run.get(), degree);
+  const Index functions = plane_functions(2);
+  for (Index i = 0; i < mesh.size(); ++i)
+    for (Index j = i + 1; j < mesh.size(); ++j) {
+      const Index needed = plane_functions(std::max(degree[std::size_t(i)], degree[std::size_t(j)]));
+      for (Index a = 0; a < functions; ++a)
+        for (Index b = 0; b < functions; ++b) {
+          const double K = some.blocks->entry(i * functions + a, j * functions + b);
+          if (a < needed && b < needed) {
+            EXPECT_NEAR(K, all.blocks->entry(i * functions + a, j * functions + b), 2e-5);
+          } else {
+            EXPECT_EQ(K, 0);
+          }
+        }
+    }
+}
+
+// Where all is smooth degrees rise, along shadows elements are cut; the stated bound of each pass holds.
+TEST(AdaptiveElements, refine_in_both_ways) {
+  const scene::Scene scene = two_rooms();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  core::LocalRun run(1, 2);
+  const Adaptation truth = adapt_elements(scene, settings_of(2), {far_plane(), 5e-4}, *rays, run.get()).adaptation;
+  ASSERT_EQ(truth.why, AdaptiveStop::met);
+  const AdaptedElements made = adapt_elements(scene, settings_of(2), {far_plane(), 5e-3}, *rays, run.get());
+  ASSERT_EQ(made.adaptation.why, AdaptiveStop::met);
+  const AdaptivePass &first = made.adaptation.passes.front(), &last = made.adaptation.passes.back();
+  EXPECT_EQ(first.unknowns, 3 * first.elements);
+  EXPECT_GT(last.elements, first.elements);
+  EXPECT_GT(std::count(made.degree.begin(), made.degree.end(), 1), 0);
+  EXPECT_GT(std::count(made.degree.begin(), made.degree.end(), 2), 0);
+  for (const AdaptivePass& pass : made.adaptation.passes)
+    EXPECT_LT(std::abs(pass.value[0] - truth.passes.back().value[0]), pass.error[0] + truth.passes.back().error[0])
+        << pass.elements;
+}
+
+// The whole solution on such elements is that of the last pass.
+TEST(AdaptiveElements, are_solved_with_their_degrees) {
+  const scene::Scene scene = two_rooms();
+  core::LocalRun run(1, 2);
+  RadiositySettings settings = settings_of(2);
+  settings.adaptive = {far_plane(), 2e-2};
+  const RadiositySolution s = solve_radiosity(scene, settings, run.get());
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  ASSERT_TRUE(s.adaptation && s.field);
+  const GoalWeights weights = weights_of(far_plane(), scene, s.mesh, *rays, 2, run.get());
+  const Eigen::Map<const Eigen::VectorXd> direct(weights.direct.data(), std::ssize(weights.direct));
+  EXPECT_NEAR(direct.dot(s.field->radiosity.col(0)), s.adaptation->passes.back().value[0], 1e-9);
+  for (std::size_t i = 0; i < s.field->degree.size(); ++i)
+    if (s.field->degree[i] == 1) {
+      EXPECT_EQ(s.field->radiosity(Index(i) * 6 + 4, 0), 0);
+      EXPECT_EQ(s.field->irradiance(Index(i) * 6 + 4, 0), 0);
+    }
 }
 
 // The stated bound holds, against smaller elements of a higher order; and the elements are those of a few places.

@@ -15,8 +15,8 @@
 
 namespace interflect::fem::test {
 
-/// K of polynomials on elements of one's own choice, by "analytic" form factors, to be solved for any rho and E that
-/// are constant on surfaces.
+/// K of polynomials on elements of one's own choice, by "analytic" form factors, to be solved for any rho that is
+/// constant on surfaces and any E.
 class AssembledScene {
  public:
   using OnSurface = std::function<double(scene::SurfaceId)>;
@@ -38,14 +38,19 @@ class AssembledScene {
   AssembledScene& operator=(const AssembledScene&) = delete;
 
   Index functions() const { return plane_functions(order_); }
+  const DenseSymmetric& K() const { return *K_; }
 
   /// Coefficients of B.
   solvers::ColumnMatrix solve(const OnSurface& rho, const OnSurface& exitance) {
-    solvers::ColumnMatrix reflectance = solvers::ColumnMatrix::Zero(K_->size(), 1), e = reflectance;
-    for (Index i = 0; i < std::ssize(patches_); ++i) {
+    solvers::ColumnMatrix e = solvers::ColumnMatrix::Zero(K_->size(), 1);
+    for (Index i = 0; i < std::ssize(patches_); ++i) e(i * functions(), 0) = exitance(surface(i));
+    return solve(rho, e);
+  }
+  /// @param e  coefficients of E, which may vary on elements
+  solvers::ColumnMatrix solve(const OnSurface& rho, const solvers::ColumnMatrix& e) {
+    solvers::ColumnMatrix reflectance = solvers::ColumnMatrix::Zero(K_->size(), 1);
+    for (Index i = 0; i < std::ssize(patches_); ++i)
       reflectance.middleRows(i * functions(), functions()).setConstant(rho(surface(i)));
-      e(i * functions(), 0) = exitance(surface(i));
-    }
     const solvers::Reflection R(reflectance);
     solvers::SolverState state{e, 0};
     const auto report = solvers::make_solver("gauss-seidel")->advance({*K_, R, e}, state, {1e-14, 1000}, run_.get());

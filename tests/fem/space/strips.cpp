@@ -121,12 +121,12 @@ Errors by_galerkin(int n, int order) {
 }
 
 /// Values at the nodes.
-Eigen::VectorXd solved(const Collocation& T) {
+Eigen::VectorXd solved(const NodeSet& nodes, const NodeOperator& T) {
   const Index unknowns = T.layout().unknowns();
   solvers::ColumnMatrix rows(unknowns, unknowns);
   T.rows(0, unknowns, rows);
   Eigen::VectorXd e(unknowns);
-  for (Index a = 0; a < unknowns; ++a) e[a] = exitance(T.node(a));
+  for (Index a = 0; a < unknowns; ++a) e[a] = exitance(nodes.position[static_cast<std::size_t>(a)]);
   const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(unknowns, unknowns) - rho * rows;
   return A.partialPivLu().solve(e);
 }
@@ -134,17 +134,18 @@ Eigen::VectorXd solved(const Collocation& T) {
 Errors by_collocation(int n, int order) {
   const Space space(strips(n), order);
   core::LocalRun run(1, 2);
-  const Collocation T(space, CollocationNodes::gauss_points, FlatlandKernel(), inner_points, run);
-  return errors_of(space, T.coefficients(solved(T)));
+  const NodeSet nodes = gauss_nodes(space);
+  return errors_of(space, nodes.P * solved(nodes, collocation(space, nodes, FlatlandKernel(), inner_points, run)));
 }
 
 double largest_error_at_vertices(int n, int order) {
   const Space space(strips(n), order);
   core::LocalRun run(1, 2);
-  const Collocation T(space, CollocationNodes::vertices, FlatlandKernel(), inner_points, run);
-  const Eigen::VectorXd B = solved(T);
+  const NodeSet nodes = end_nodes(space);
+  const Eigen::VectorXd B = solved(nodes, collocation(space, nodes, FlatlandKernel(), inner_points, run));
   double largest = 0;
-  for (Index a = 0; a < B.size(); ++a) largest = std::max(largest, std::abs(B[a] - exact()(T.node(a))));
+  for (Index a = 0; a < B.size(); ++a)
+    largest = std::max(largest, std::abs(B[a] - exact()(nodes.position[static_cast<std::size_t>(a)])));
   return largest;
 }
 
@@ -191,20 +192,19 @@ TEST(FlatlandStrips, collocation_at_vertices_gains_less) {
 }
 
 TEST(FlatlandStrips, collocation_of_constants_has_no_vertices) {
-  const Space space(strips(2), 0);
-  core::LocalRun run(1, 2);
-  EXPECT_THROW(Collocation(space, CollocationNodes::vertices, FlatlandKernel(), 4, run), core::PreconditionError);
+  EXPECT_THROW(end_nodes(Space(strips(2), 0)), core::PreconditionError);
 }
 
 // A solver that knows nothing of light gives the same: G is the identity, K is not symmetric.
 TEST(FlatlandStrips, collocation_is_an_operator_that_solvers_take) {
   const Space space(strips(8), 1);
   core::LocalRun run(1, 2);
-  const Collocation T(space, CollocationNodes::gauss_points, FlatlandKernel(), inner_points, run);
+  const NodeSet nodes = gauss_nodes(space);
+  const NodeOperator T = collocation(space, nodes, FlatlandKernel(), inner_points, run);
   solvers::ColumnMatrix e(T.layout().unknowns(), 1);
-  for (Index a = 0; a < e.rows(); ++a) e(a, 0) = exitance(T.node(a));
+  for (Index a = 0; a < e.rows(); ++a) e(a, 0) = exitance(nodes.position[static_cast<std::size_t>(a)]);
   const solvers::Reflection R(solvers::ColumnMatrix::Constant(e.rows(), 1, rho));
-  const Eigen::VectorXd expected = solved(T);
+  const Eigen::VectorXd expected = solved(nodes, T);
   for (const std::string& name : solvers::solver_names()) {
     solvers::SolverState state{e, 0};
     const auto report = solvers::make_solver(name)->advance({T, R, e}, state, {1e-13, 1000}, run);

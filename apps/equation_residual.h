@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/solved_scene.h"
+#include "fem/residual.h"
+
+namespace interflect::apps {
+
+/// How well a solution satisfies its equation (`--residual`).  Nothing where the run was stopped, which is said.
+std::optional<fem::ResidualNorms> equation_residual(const SolvedScene& solved, Run& run);
+
+/// "residual    of radiosity: 0.3 lm/m2 (L2), 2.1 (maximum); so |B - B_h| <= 0.9 lm/m2 (L2), 6 (maximum), estimated"
+std::string residual_text(const SolvedScene& solved, const fem::ResidualNorms& residual);
+results::Record residual_record(const SolvedScene& solved, const fem::ResidualNorms& residual);
+
+}  // namespace interflect::apps

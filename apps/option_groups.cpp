@@ -1,0 +1,239 @@
+#include "apps/option_groups.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "apps/option_validators.h"
+#include "core/format.h"
+#include "fem/closure.h"
+
+namespace interflect::apps {
+namespace {
+
+/// Settings that change nothing are mistakes: of the method, or of what one expects of it.
+void require_heeded(const CLI::Option& option, const std::string& method, fem::Setting setting) {
+  if (!option.empty() && fem::setting_of(method) != setting)
+    throw CLI::ValidationError(option.get_name(), "form factors by " + method + " have none: --form-factors NAME");
+}
+
+/// Where the options of how much a form-factor method does go.
+struct EffortOptions {
+  const std::string& method;
+  double& row_tolerance;
+  std::uint64_t& samples;
+  int& resolution;
+  int& visibility_rays;
+};
+
+/// @param when_0  what a tolerance of 0 means, where that is the default
+void add_effort(CLI::App& command, const EffortOptions& options, const std::string& when_0 = "") {
+  CLI::Option* tolerance =
+      command.add_option("--tolerance", options.row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
+          ->check(within(1e-9, 0.5))
+          ->capture_default_str();
+  if (!when_0.empty()) tolerance->default_str(when_0);
+  const CLI::Option* samples =
+      command
+          .add_option("--samples", options.samples,
+                      "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
+          ->transform(count(1e15))
+          ->capture_default_str();
+  const CLI::Option* cells =
+      command.add_option("--resolution", options.resolution, "Cells across a hemicube or a plane")
+          ->check(CLI::Range(2, 8192))
+          ->capture_default_str();
+  const CLI::Option* rays = command
+                                .add_option("--visibility-rays", options.visibility_rays,
+                                            "Of gauss-lambert and hybrid: for a pair that something may hide")
+                                ->check(CLI::Range(4, 65536))
+                                ->capture_default_str();
+  command.parse_complete_callback([samples, cells, rays, &method = options.method] {
+    require_heeded(*samples, method, fem::Setting::samples);
+    require_heeded(*cells, method, fem::Setting::resolution);
+    require_heeded(*rays, method, fem::Setting::rays);
+  });
+}
+
+/// The polynomials' degree, and what elements are made for.  Polynomials are by analytic form factors, and goals by
+/// polynomials, where nothing else is asked for.
+/// @param method  that of form factors
+/// @return  the option of the order
+const CLI::Option* add_order_and_goal(CLI::App& command, SolveOptions& options, const CLI::Option* method) {
+  fem::RadiositySettings& s = options.settings;
+  CLI::Option* order_given = command
+                                 .add_option_function<int>(
+                                     "--order",
+                                     [&s, method](int order) {
+                                       s.order = order;
+                                       if (order > 0 && method->empty()) s.form_factors = "analytic";
+                                     },
+                                     "Degree of the polynomials on an element; from 1 on with form factors by analytic")
+                                 ->check(CLI::Range(0, 3))
+                                 ->default_str("0");
+  const auto polynomials = [&s, method, order_given](int order) {
+    if (order_given->empty()) s.order = std::max(s.order, order);
+    if (method->empty()) s.form_factors = "analytic";
+  };
+  command
+      .add_option_function<double>(
+          "--target-error",
+          [&options, polynomials](double target) {
+            options.target_error = target;
+            polynomials(2);
+          },
+          "Make elements for a goal, pass after pass, until its error is estimated below this part of it, such as 1%")
+      ->transform(fraction());
+  command.add_option_function<std::string>(
+      "--goal",
+      [&options, polynomials](const std::string& goal) {
+        options.goal = goal;
+        polynomials(1);
+      },
+      "Whose error counts: a sensor, a surface, or camera:NAME; default: all sensors");
+  return order_given;
+}
+
+/// Linear functions between corners are of order 1, and by analytic form factors.
+void add_projection(CLI::App& command, fem::RadiositySettings& s, const CLI::Option* method, const CLI::Option* order) {
+  command
+      .add_option_function<std::string>(
+          "--projection",
+          [&s, method, order](const std::string& name) {
+            s.projection = fem::projection_named(name);
+            if (s.projection == fem::Projection::centroids || s.projection == fem::Projection::galerkin) return;
+            if (order->empty()) s.order = 1;
+            if (method->empty()) s.form_factors = "analytic";
+          },
+          "How the equation is made finite: in the mean (galerkin, continuous), or at nodes (gauss-points, vertices, "
+          "centroids)")
+      ->check(CLI::IsMember(fem::projection_names()))
+      ->default_str("galerkin");
+}
+
+void add_solver(CLI::App& command, fem::RadiositySettings& s) {
+  command.add_option("--solver", s.solver, "Linear solver")
+      ->check(CLI::IsMember(solvers::solver_names()))
+      ->capture_default_str();
+  command.add_option("--solver-tolerance", s.stopping.tolerance, "Relative residual at which it stops")
+      ->check(within(1e-15, 0.1))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_common(CLI::App& app, CommonOptions& common) {
+  app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")
+      ->check(seed())
+      ->capture_default_str();
+  app.add_option("--threads", common.threads, "Threads to use (0: all); results do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--json", common.json, "Print the result as one JSON object");
+  app.add_flag("-q,--quiet", common.quiet, "No progress, and no messages but errors and shortfalls");
+  app.add_flag("-v,--verbose", common.verbose, "Say more");
+}
+
+void add_scene(CLI::App& command, std::filesystem::path& scene) {
+  command.add_option("SCENE", scene, "Scene file (docs/scene.md)")->required();
+}
+
+void add_camera(CLI::App& command, std::string& camera) {
+  command.add_option("--camera", camera, "Camera of the scene; default: its first");
+}
+
+CLI::Option* add_folder(CLI::App& command, std::filesystem::path& out, const std::string& what) {
+  return command.add_option("-o,--out", out, "Folder for " + what)->required();
+}
+
+void add_no_pictures(CLI::App& command, bool& pictures) {
+  command.add_flag_callback(
+      "--no-pictures", [&pictures] { pictures = false; }, "Write no PNG");
+}
+
+void add_forecast(CLI::App& command, bool& forecast_only, CLI::Option* out) {
+  command.add_flag_callback(
+      "--forecast",
+      [&forecast_only, out] {
+        forecast_only = true;
+        out->required(false);
+      },
+      "Say what it would need, and stop: no --out is needed");
+}
+
+void add_element_size(CLI::App& command, double& size, const std::string& when_none) {
+  command.add_option("--element-size", size, "Longest edge of an element [m]; default: " + when_none)->check(length());
+}
+
+CLI::Option* add_form_factors(CLI::App& command, std::string& method) {
+  return command.add_option("--form-factors", method, "Form-factor method")
+      ->check(CLI::IsMember(fem::form_factor_names()))
+      ->capture_default_str();
+}
+
+void add_quadrature_tolerance(CLI::App& command, double& tolerance, const std::string& of) {
+  command.add_option("--quadrature-tolerance", tolerance, "Relative error of " + of)
+      ->check(within(1e-14, 0.5))
+      ->capture_default_str();
+}
+
+void add_closure(CLI::App& command, std::string& closure) {
+  std::vector<std::string> names = fem::closure_names();
+  names.emplace_back("none");
+  CLI::Option* named =
+      command
+          .add_option("--closure", closure,
+                      "Change the form factors least so that rows, with an open scene's environment, add up to 1")
+          ->check(CLI::IsMember(names))
+          ->capture_default_str();
+  command
+      .add_flag_callback(
+          "--restore-closure", [&closure] { closure = "scaling"; }, "The same as --closure scaling")
+      ->excludes(named);
+}
+
+void add_intersector(CLI::App& command, std::string& intersector, const std::string& description) {
+  command.add_option("--intersector", intersector, description)
+      ->check(CLI::IsMember(raycast::ray_caster_names()))
+      ->capture_default_str();
+}
+
+void add_accuracy(CLI::App& command, double& accuracy, const std::string& of) {
+  command.add_option("--accuracy", accuracy, "Relative standard error of " + of + ", such as 1%")
+      ->transform(fraction())
+      ->default_str("1%");
+}
+
+void add_effort(CLI::App& command, fem::RadiositySettings& s) {
+  add_effort(command, {s.form_factors, s.row_tolerance, s.samples, s.resolution, s.visibility_rays},
+             "none: --quadrature-tolerance");
+}
+
+void add_effort(CLI::App& command, ViewFactorOptions& o) {
+  add_effort(command, {o.form_factors, o.tolerance, o.samples, o.resolution, o.visibility_rays});
+}
+
+void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
+  fem::RadiositySettings& s = options.settings;
+  add_element_size(command, s.element_size, "for about 2 500 elements, more where small surfaces each need some");
+  command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")
+      ->transform(memory())
+      ->default_str(core::format_bytes(s.max_memory));
+  const CLI::Option* method = add_form_factors(command, s.form_factors);
+  add_projection(command, s, method, add_order_and_goal(command, options, method));
+  command.add_option(
+      "--factors", options.factors,
+      "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
+  add_quadrature_tolerance(command, s.quadrature_tolerance, "an unoccluded form factor");
+  add_solver(command, s);
+  add_intersector(command, s.intersector, "Ray caster; brute is slow, double precision, for checking");
+  add_closure(command, s.closure);
+  command
+      .add_option("--drop-below", s.drop_below,
+                  "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
+      ->check(within(0.0, 1.0))
+      ->capture_default_str();
+  add_effort(command, s);
+  add_forecast(command, options.forecast_only, out);
+}
+
+}  // namespace interflect::apps

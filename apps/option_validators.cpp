@@ -1,0 +1,21 @@
+#include "apps/option_validators.h"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/option_texts.h"
+#include "core/format.h"
+
+namespace interflect::apps {
+
+CLI::Validator within(double low, double high) {
+  return {[=](std::string& text) { return outside(text, low, high); }, core::format("in [%g, %g]", low, high)};
+}
+CLI::Validator count(double most) {
+  return {[=](std::string& text) { return to_count(text, most); }, core::format("up to %g", most)};
+}
+CLI::Validator memory() { return {to_bytes, "SIZE"}; }
+CLI::Validator length() { return {no_length, "METRES"}; }
+CLI::Validator fraction() { return {to_fraction, "PART"}; }
+CLI::Validator seed() { return {no_seed, "NUMBER"}; }
+
+}  // namespace interflect::apps

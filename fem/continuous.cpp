@@ -1,0 +1,41 @@
+#include "fem/continuous.h"
+
+#include <Eigen/SparseCholesky>
+
+#include "core/error.h"
+
+namespace interflect::fem {
+namespace {
+
+using solvers::ColumnMatrix;
+
+/// K P, some columns of it at a time: all columns of a call are one pass over K.
+ColumnMatrix applied(const SymmetricOperator& K, const NodeSet::Prolongation& P, Run& run) {
+  constexpr Index columns_at_once = 64;
+  ColumnMatrix out(P.rows(), P.cols());
+  for (Index first = 0; first < P.cols(); first += columns_at_once) {
+    const Index count = std::min(columns_at_once, P.cols() - first);
+    run.throw_if_stopped("continuous elements");
+    ColumnMatrix some = ColumnMatrix::Zero(P.rows(), count), product(P.rows(), count);
+    for (Index a = 0; a < P.rows(); ++a)
+      for (NodeSet::Prolongation::InnerIterator entry(P, a); entry; ++entry)
+        if (entry.col() >= first && entry.col() < first + count) some(a, entry.col() - first) = entry.value();
+    K.apply(some, product, run);
+    out.middleCols(first, count) = product;
+  }
+  return out;
+}
+
+}  // namespace
+
+NodeOperator continuous_galerkin(const SymmetricOperator& K, const NodeSet& nodes, Run& run) {
+  if (nodes.P.rows() != K.size()) throw core::PreconditionError("continuous_galerkin: K is of another space");
+  const Eigen::Map<const Eigen::VectorXd> G(K.gram().data(), K.size());
+  const Eigen::SparseMatrix<double> P = nodes.P, M = P.transpose() * G.asDiagonal() * P;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(M);
+  if (factors.info() != Eigen::Success) throw core::PreconditionError("continuous_galerkin: corners that are nobody's");
+  const Eigen::MatrixXd KP = applied(K, nodes.P, run);
+  return NodeOperator(ColumnMatrix(factors.solve(P.transpose() * KP)));
+}
+
+}  // namespace interflect::fem
