@@ -67,7 +67,7 @@ const CLI::Option* add_order_and_goal(CLI::App& command, SolveOptions& options, 
                                        s.order = order;
                                        if (order > 0 && method->empty()) s.form_factors = "analytic";
                                      },
-                                     "Degree of the polynomials on an element; from 1 on with form factors by analytic")
+                                     "Degree of the polynomials on an element; from 1 on by analytic or gauss-lambert")
                                  ->check(CLI::Range(0, 3))
                                  ->default_str("0");
   const auto polynomials = [&s, method, order_given](int order) {

@@ -80,12 +80,12 @@ double error_of(const scene::Scene& scene, const fem::RadiositySolution& s, cons
   return std::sqrt(difference / whole);
 }
 
+/// Visibility by rays, as by default, for every order.
 fem::RadiositySettings settings_of(int order, double element_size) {
   fem::RadiositySettings settings;
   settings.order = order;
   settings.element_size = element_size;
-  settings.max_memory = 12e9;
-  if (order > 0) settings.form_factors = "analytic";
+  settings.max_memory = 8e9;
   return settings;
 }
 
@@ -93,11 +93,22 @@ struct Trial {
   double seconds, error;
 };
 
-/// Smaller and smaller elements, until the error asked for is passed; the time for it by a power law between the last two.
+bool fits(const scene::Scene& scene, const fem::RadiositySettings& settings, const Run& run) {
+  try {
+    fem::forecast(scene, settings, run);
+    return true;
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
+
+/// Smaller and smaller elements, until the error asked for is passed or there is no memory for more; the time for it by a
+/// power law through the last two: between them, or beyond, which is said.
 double time_to(double wanted, int order, double first_size, double ratio, const scene::Scene& scene,
                const std::vector<Sample>& samples, Run& run) {
   std::vector<Trial> trials;
   for (double size = first_size; trials.size() < 8; size *= ratio) {
+    if (!fits(scene, settings_of(order, size), run)) break;
     const auto start = std::chrono::steady_clock::now();
     const fem::RadiositySolution s = fem::solve_radiosity(scene, settings_of(order, size), run);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -111,6 +122,8 @@ double time_to(double wanted, int order, double first_size, double ratio, const 
   if (trials.size() == 1) return last.seconds;  // at most
   const Trial before = trials[trials.size() - 2];
   const double slope = std::log(last.seconds / before.seconds) / std::log(before.error / last.error);
+  if (last.error > wanted)
+    std::printf("p = %d  has no memory for more: the time to %g %% is extrapolated\n", order, 100 * wanted);
   return last.seconds * std::pow(last.error / wanted, slope);
 }
 
@@ -122,13 +135,15 @@ int main(int argc, char** argv) try {
   core::LocalRun run(1, argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 2);
   const scene::Scene scene = scene::read_scene(file);
   const double coarse = mesh::edge_for(scene, 60);
-  const fem::RadiositySolution reference = fem::solve_radiosity(scene, settings_of(2, coarse / 8), run.get());
+  fem::RadiositySettings exact = settings_of(2, coarse / 8);
+  exact.form_factors = "analytic";
+  const fem::RadiositySolution reference = fem::solve_radiosity(scene, exact, run.get());
   std::vector<Sample> samples = samples_on(scene, reference.mesh, 3000);
   set_reference(scene, reference, samples, run.get());
   std::printf("reference: p = 2, %td elements; %zu points\n", reference.mesh.size(), samples.size());
   const double constants = time_to(wanted, 0, coarse / 8, 0.7, scene, samples, run.get()),
-               linear = time_to(wanted, 1, coarse, 0.6, scene, samples, run.get()),
-               quadratic = time_to(wanted, 2, coarse, 0.6, scene, samples, run.get());
+               linear = time_to(wanted, 1, coarse / 8, 0.7, scene, samples, run.get()),
+               quadratic = time_to(wanted, 2, coarse / 8, 0.7, scene, samples, run.get());
   std::printf(
       "%g %% L2 of H: p = 0 in %.1f s, p = 1 in %.1f s (%.3f of p = 0; asked for 0.2), p = 2 in %.1f s (%.3f)\n",
       100 * wanted, constants, linear, linear / constants, quadratic, quadratic / constants);

@@ -97,6 +97,44 @@ SampledNoise sampled_noise(const RadiositySolution& s, const SymmetricOperator& 
   return noise;
 }
 
+/// v_i + sum_j (F_ij rho_j)² v_j: of noise that elements have for themselves, one bounce more.
+/// @param variance  of irradiance, unknowns x channels
+solvers::ColumnMatrix with_next_bounce(const SymmetricOperator& K, const solvers::ColumnMatrix& variance,
+                                       const solvers::ColumnMatrix& reflectance, const Run& run) {
+  const Eigen::Map<const Eigen::VectorXd> G(K.gram().data(), K.size());
+  const solvers::ColumnMatrix reflected = reflectance.array().square() * variance.array();
+  solvers::ColumnMatrix next =
+      K.sums_by_row(run, variance.cols(), [&](const StoredPair& p, solvers::ColumnMatrix& sums) {
+        sums.row(p.a) += p.K * p.K * reflected.row(p.b);
+        if (p.a != p.b) sums.row(p.b) += p.K * p.K * reflected.row(p.a);
+      });
+  next.array().colwise() /= G.array().square();
+  return variance + next;
+}
+
+/// Of constants: one bounce is known.
+void add_next_bounce(const RadiositySolution& s, const SymmetricOperator& K, int channels, SampledNoise& noise,
+                     const Run& run) {
+  noise.variance =
+      to_spectra(with_next_bounce(K, to_columns(noise.variance, channels), to_columns(s.reflectance, channels), run));
+}
+
+/// Of polynomials: what all functions of other elements bring to an element's mean.
+void set_noise_of_functions(const RadiositySolution& s, const SymmetricOperator& blocks, int channels,
+                            SampledNoise& noise, Run& run) {
+  const Index functions = s.field->functions;
+  const Eigen::Map<const Eigen::VectorXd> G(blocks.gram().data(), blocks.size());
+  const solvers::ColumnMatrix squares = s.field->radiosity.array().square().matrix();
+  solvers::ColumnMatrix variance(squares.rows(), channels), rho(squares.rows(), channels);
+  blocks.apply_variances(squares, variance, run);
+  variance.array().colwise() /= G.array().square();
+  for (Index u = 0; u < rho.rows(); ++u)
+    for (int c = 0; c < channels; ++c) rho(u, c) = s.reflectance[static_cast<std::size_t>(u / functions)][c];
+  variance = with_next_bounce(blocks, variance, rho, run);
+  for (std::size_t i = 0; i < noise.variance.size(); ++i)
+    for (int c = 0; c < channels; ++c) noise.variance[i][c] = variance(static_cast<Index>(i) * functions, c);
+}
+
 void set_noise(RadiositySolution& s, const SampledNoise& noise) {
   s.shared_noise = later_bounces(s) * sqrt(noise.variance_of_mean);
   s.irradiance_noise.clear();
@@ -206,7 +244,13 @@ Spectrum irradiance_variation(const RadiositySolution& s, std::size_t element) {
 }
 
 void estimate_errors(RadiositySolution& s, const ErrorSources& from, int channels, Run& run) {
-  const SampledNoise noise = sampled_noise(s, from.K, channels, run);
+  SampledNoise noise = sampled_noise(s, from.K, channels, run);
+  if (from.K.has_errors()) {
+    if (s.field && from.blocks != nullptr)
+      set_noise_of_functions(s, *from.blocks, channels, noise, run);
+    else
+      add_next_bounce(s, from.K, channels, noise, run);
+  }
   set_noise(s, noise);
   if (from.both_converged)
     add_discretisation(

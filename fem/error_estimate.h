@@ -8,10 +8,11 @@ namespace interflect::fem {
 
 /// What the error of a solution is estimated from.
 struct ErrorSources {
-  const SymmetricOperator& K;              ///< on the fine mesh; its errors are those of its entries
-  std::span<const double> row_sum_before;  ///< sum_j F_ij before any closure was restored
-  double quadrature_tolerance = 0;         ///< relative, of entries
-  std::span<const double> row_bound;       ///< sum_j bound_ij / A_i, in place of that tolerance; empty: not known
+  const SymmetricOperator& K;                 ///< on the fine mesh; its errors are those of its entries
+  const SymmetricOperator* blocks = nullptr;  ///< of polynomials, with errors of theirs
+  std::span<const double> row_sum_before;     ///< sum_j F_ij before any closure was restored
+  double quadrature_tolerance = 0;            ///< relative, of entries
+  std::span<const double> row_bound;          ///< sum_j bound_ij / A_i, in place of that tolerance; empty: not known
   const EnvironmentColumn* environment = nullptr;  ///< of an open scene, where it was found
   bool both_converged = true;  ///< the solves at either size: else nothing bounds the discretisation error
   /// Of polynomials, what their highest degree adds: in place of the halving, of neighbours and of the field's variation.
@@ -40,12 +41,13 @@ struct ErrorSources {
 /// plus  solver: residual times max B / (1 - max rho), mean rho where max rho is 1.
 ///
 /// Noise.  With the standard errors e_ij of K's entries, one bounce off B makes  var_i = sum_j (e_ij B_j / A_i)²  of its own in
-/// each element.  Later bounces see means over many elements, and add one and the same deviation to all,
+/// each element, and the next one  sum_j (F_ij rho_j)² var_j,  which is much where an element sees little but one other.  Later
+/// bounces see means over many elements, and add one and the same deviation to all,
 ///
 ///   shared² = (rho / (1 - rho))² Var(mean H),   Var(mean H) = sum_{i<j} e_ij² (B_i + B_j)² / A² = sum_ij e_ij² (B_j² + B_i B_j) / A²
 ///
 /// with the mean rho and the total area A; K_ij = K_ji is one random number that two elements share.  irradiance_noise²
-/// is var + shared².  An element that sees little but one other has more.
+/// is all of these.
 ///
 /// Field.  Constants differ from the iterated B_1 by its variation inside the element.  For a linear field the root mean
 /// square over an element is 1/sqrt(3) of that between the four children of a parent, for triangles and parallelograms alike;

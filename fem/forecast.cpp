@@ -36,7 +36,8 @@ double bytes_a_pair_on_the_way(Granularity granularity) {
 double predicted_bytes(double elements, const RadiositySettings& settings, Granularity granularity) {
   const double pairs = 0.5 * elements * elements, on_the_way = pairs * bytes_a_pair_on_the_way(granularity),
                others = 4000.0 * elements;
-  if (settings.order > 0) return (8 + 8 * std::pow(plane_functions(settings.order), 2)) * pairs + others;
+  const double an_entry = settings.form_factors == "analytic" ? 8 : 12;
+  if (settings.order > 0) return an_entry * (1 + std::pow(plane_functions(settings.order), 2)) * pairs + others;
   if (!(settings.drop_below > 0)) return std::max(12 * pairs + on_the_way, 12.75 * pairs) + others;
   const double kept = std::min(pairs, elements / settings.drop_below);
   return std::max(20 * kept + on_the_way, 16 * kept + 20 * std::min(kept, pairs / 16)) + others;

@@ -189,6 +189,9 @@ void require_compatible(const RadiositySettings& settings) {
   if (settings.adaptive && (settings.order < 1 || settings.order > 2))
     throw core::InputError(core::format("polynomials of order %d", settings.order),
                            "elements are made for a goal with order 1 or 2");
+  if (settings.adaptive && settings.form_factors != "analytic")
+    throw core::InputError("form factors by " + settings.form_factors,
+                           "elements are made for a goal by analytic ones, which have no noise");
   require_compatible_projection(settings);
   if (settings.order == 0) return;
   const auto refuse = [&](const std::string& what) {
@@ -275,11 +278,11 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   });
   timed("error estimate", [&] {
     const bool counted = settings.row_tolerance > 0 || settings.stored_factors;
-    estimate_errors(
-        s,
-        {K, row_sum_before, settings.quadrature_tolerance, counted ? from.row_bound : std::span<const double>(),
-         environment ? &*environment : nullptr, converged, settings.order > 0 ? &change : nullptr},
-        channels, run);
+    estimate_errors(s,
+                    {K, from.blocks.get(), row_sum_before, settings.quadrature_tolerance,
+                     counted ? from.row_bound : std::span<const double>(), environment ? &*environment : nullptr,
+                     converged, settings.order > 0 ? &change : nullptr},
+                    channels, run);
   });
   timed("energy balance", [&] { balance_energy(s, scene, *rays, repair, run); });
   s.stages = std::move(stages);

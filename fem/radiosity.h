@@ -19,7 +19,7 @@ namespace interflect::fem {
 struct RadiositySettings {
   double element_size = 0;  ///< longest edge [m]; 0: see element_size_of
   std::string form_factors = "gauss-lambert";
-  int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic` form factors alone
+  int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic` or `gauss-lambert`
   Projection projection = Projection::galerkin;
   std::string solver = "gauss-seidel";
   std::string intersector = "embree";

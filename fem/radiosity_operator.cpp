@@ -198,7 +198,7 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
       const Index j = order[static_cast<std::size_t>(l)], was_j = same_as[static_cast<std::size_t>(j)];
       for (Index a = 0; a < f; ++a)
         for (Index b = 0; b < f; ++b)
-          sink.add(i * f + a, j * f + b, {before.blocks->entry(was_i * f + a, was_j * f + b)});
+          sink.add(i * f + a, j * f + b, {before.blocks->entry(was_i * f + a, was_j * f + b)});  // without noise
     }
   });
   FormFactorContext context = form_factor_context(scene, reordered, rays, settings, run.seed);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fem/form_factor/moments_by_degree.h"
 #include "fem/form_factor/pair_method.h"
-#include "fem/form_factor/pair_moments.h"
 
 namespace interflect::fem {
 
@@ -10,7 +10,7 @@ namespace interflect::fem {
 ///   K_ab = K_ab,unoccluded - int_i N_a(x) (irradiance at x from the hidden part of j that sends N_b) dA
 ///
 /// as hidden_exchange.h does it for constants; the irradiance is in closed form too (polynomial_emitter.h).  The sink
-/// gets unknowns, element after element.  Where elements have degrees of their own, a pair's block is of the higher one.
+/// gets unknowns, element after element.
 class AnalyticMoments final : public PairMethod {
  public:
   /// @throws core::PreconditionError  an order that is not 1 .. 3
@@ -21,11 +21,8 @@ class AnalyticMoments final : public PairMethod {
  private:
   class Work;
   std::unique_ptr<PairWork> work() const override;
-  /// Of the degree that the pair needs.
-  const MomentIntegrator& moments(Index i, Index j) const;
 
-  std::vector<MomentIntegrator>
-      moments_;  ///< of order 1, 2, .. where any pair needs it; the last is of context().order
+  MomentsByDegree moments_;
 };
 
 }  // namespace interflect::fem

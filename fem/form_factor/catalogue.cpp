@@ -9,6 +9,7 @@
 #include "fem/form_factor/hemicube.h"
 #include "fem/form_factor/hemisphere_rays.h"
 #include "fem/form_factor/hybrid.h"
+#include "fem/form_factor/sampled_moments.h"
 #include "fem/form_factor/single_plane.h"
 
 namespace interflect::fem {
@@ -30,9 +31,13 @@ std::unique_ptr<FormFactorMethod> make_analytic(const FormFactorContext& context
   return context.order == 0 ? make<Analytic>(context) : make<AnalyticMoments>(context);
 }
 
+std::unique_ptr<FormFactorMethod> make_gauss_lambert(const FormFactorContext& context) {
+  return context.order == 0 ? make<GaussLambert>(context) : make<SampledMoments>(context);
+}
+
 constexpr Entry catalogue[] = {{"analytic", make_analytic, Setting::tolerance},
                                {"hybrid", make<Hybrid>, Setting::rays},
-                               {"gauss-lambert", make<GaussLambert>, Setting::rays},
+                               {"gauss-lambert", make_gauss_lambert, Setting::rays},
                                {"area-to-area", make<AreaToArea>, Setting::samples},
                                {"hemisphere-rays", make<HemisphereRays>, Setting::samples},
                                {"global-lines", make<GlobalLines>, Setting::samples},
@@ -67,7 +72,8 @@ PairCounts& PairCounts::operator+=(const PairCounts& o) {
 std::unique_ptr<FormFactorMethod> make_form_factor_method(const std::string& name, const FormFactorContext& context) {
   auto method = entry_of(name).make(context);
   if (method->highest_order() < context.order)
-    throw core::InputError("form factors by '" + name + "'", "they are of constants: --order 0, or analytic, expected");
+    throw core::InputError("form factors by '" + name + "'",
+                           "they are of constants: --order 0, or analytic or gauss-lambert, expected");
   return method;
 }
 
