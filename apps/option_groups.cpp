@@ -69,7 +69,7 @@ const CLI::Option* add_order_and_goal(CLI::App& command, SolveOptions& options, 
                                      },
                                      "Degree of the polynomials on an element; from 1 on by analytic or gauss-lambert")
                                  ->check(CLI::Range(0, 3))
-                                 ->default_str("0");
+                                 ->default_str("0; 1 with --goal or a linear --projection, 2 with --target-error");
   const auto polynomials = [&s, method, order_given](int order) {
     if (order_given->empty()) s.order = std::max(s.order, order);
     if (method->empty()) s.form_factors = "analytic";
@@ -93,16 +93,16 @@ const CLI::Option* add_order_and_goal(CLI::App& command, SolveOptions& options, 
   return order_given;
 }
 
-/// Linear functions between corners are of order 1, and by analytic form factors.
+/// Whose functions are linear unless --order says otherwise, and constants at centroids; by analytic form factors.
 void add_projection(CLI::App& command, fem::RadiositySettings& s, const CLI::Option* method, const CLI::Option* order) {
   command
       .add_option_function<std::string>(
           "--projection",
           [&s, method, order](const std::string& name) {
             s.projection = fem::projection_named(name);
-            if (s.projection == fem::Projection::centroids || s.projection == fem::Projection::galerkin) return;
-            if (order->empty()) s.order = 1;
-            if (method->empty()) s.form_factors = "analytic";
+            if (s.projection == fem::Projection::galerkin) return;
+            if (order->empty() && s.projection != fem::Projection::centroids) s.order = 1;
+            if (method->empty()) s.form_factors = "analytic";  // without noise, as what is found at nodes
           },
           "How the equation is made finite: in the mean (galerkin, continuous), or at nodes (gauss-points, vertices, "
           "centroids)")

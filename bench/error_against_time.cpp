@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -118,6 +119,7 @@ double time_to(double wanted, int order, double first_size, double ratio, const 
     std::fflush(stdout);
     if (trials.back().error <= wanted) break;
   }
+  if (trials.empty()) return std::numeric_limits<double>::infinity();
   const Trial last = trials.back();
   if (trials.size() == 1) return last.seconds;  // at most
   const Trial before = trials[trials.size() - 2];

@@ -1,6 +1,7 @@
 #include "fem/continuous.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 
 #include "core/error.h"
 
@@ -33,7 +34,8 @@ NodeOperator continuous_galerkin(const SymmetricOperator& K, const NodeSet& node
   const Eigen::Map<const Eigen::VectorXd> G(K.gram().data(), K.size());
   const Eigen::SparseMatrix<double> P = nodes.P, M = P.transpose() * G.asDiagonal() * P;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(M);
-  if (factors.info() != Eigen::Success) throw core::PreconditionError("continuous_galerkin: corners that are nobody's");
+  if (factors.info() != Eigen::Success)
+    throw core::PreconditionError("continuous_galerkin: corners' functions depend on each other: quads need order 2");
   const Eigen::MatrixXd KP = applied(K, nodes.P, run);
   return NodeOperator(ColumnMatrix(factors.solve(P.transpose() * KP)));
 }

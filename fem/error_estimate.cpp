@@ -97,26 +97,32 @@ SampledNoise sampled_noise(const RadiositySolution& s, const SymmetricOperator& 
   return noise;
 }
 
-/// v_i + sum_j (F_ij rho_j)² v_j: of noise that elements have for themselves, one bounce more.
-/// @param variance  of irradiance, unknowns x channels
+/// v_i + sum_j ((F_ij rho_j)² v_j + 2 e_ij² B_j F_ij rho_j B_i / (A_i A_j)): one bounce more, by way of j, of noise that
+/// is independent but for that of K_ij = K_ji, which both bounces have.
+/// @param variance  of irradiance, and coefficients of radiosity: unknowns x channels
 solvers::ColumnMatrix with_next_bounce(const SymmetricOperator& K, const solvers::ColumnMatrix& variance,
-                                       const solvers::ColumnMatrix& reflectance, const Run& run) {
+                                       const solvers::ColumnMatrix& reflectance, const solvers::ColumnMatrix& B,
+                                       const Run& run) {
   const Eigen::Map<const Eigen::VectorXd> G(K.gram().data(), K.size());
   const solvers::ColumnMatrix reflected = reflectance.array().square() * variance.array();
   solvers::ColumnMatrix next =
       K.sums_by_row(run, variance.cols(), [&](const StoredPair& p, solvers::ColumnMatrix& sums) {
-        sums.row(p.a) += p.K * p.K * reflected.row(p.b);
-        if (p.a != p.b) sums.row(p.b) += p.K * p.K * reflected.row(p.a);
+        const Eigen::RowVectorXd both =
+            2 * p.standard_error * p.standard_error * p.K * B.row(p.a).cwiseProduct(B.row(p.b));
+        sums.row(p.a) += p.K * p.K * reflected.row(p.b) + both.cwiseProduct(reflectance.row(p.b)) / G[p.b];
+        if (p.a == p.b) return;
+        sums.row(p.b) += p.K * p.K * reflected.row(p.a) + both.cwiseProduct(reflectance.row(p.a)) / G[p.a];
       });
   next.array().colwise() /= G.array().square();
-  return variance + next;
+  return (variance + next).cwiseMax(0.0);
 }
 
 /// Of constants: one bounce is known.
 void add_next_bounce(const RadiositySolution& s, const SymmetricOperator& K, int channels, SampledNoise& noise,
                      const Run& run) {
   noise.variance =
-      to_spectra(with_next_bounce(K, to_columns(noise.variance, channels), to_columns(s.reflectance, channels), run));
+      to_spectra(with_next_bounce(K, to_columns(noise.variance, channels), to_columns(s.reflectance, channels),
+                                  to_columns(s.radiosity, channels), run));
 }
 
 /// Of polynomials: what all functions of other elements bring to an element's mean.
@@ -130,7 +136,7 @@ void set_noise_of_functions(const RadiositySolution& s, const SymmetricOperator&
   variance.array().colwise() /= G.array().square();
   for (Index u = 0; u < rho.rows(); ++u)
     for (int c = 0; c < channels; ++c) rho(u, c) = s.reflectance[static_cast<std::size_t>(u / functions)][c];
-  variance = with_next_bounce(blocks, variance, rho, run);
+  variance = with_next_bounce(blocks, variance, rho, s.field->radiosity, run);
   for (std::size_t i = 0; i < noise.variance.size(); ++i)
     for (int c = 0; c < channels; ++c) noise.variance[i][c] = variance(static_cast<Index>(i) * functions, c);
 }

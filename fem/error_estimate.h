@@ -41,7 +41,7 @@ struct ErrorSources {
 /// plus  solver: residual times max B / (1 - max rho), mean rho where max rho is 1.
 ///
 /// Noise.  With the standard errors e_ij of K's entries, one bounce off B makes  var_i = sum_j (e_ij B_j / A_i)²  of its own in
-/// each element, and the next one  sum_j (F_ij rho_j)² var_j,  which is much where an element sees little but one other.  Later
+/// each element, and the next one  sum_j (F_ij rho_j)² var_j + 2 e_ij² B_j F_ij rho_j B_i / (A_i A_j),  which is much where an element sees little but one other.  Later
 /// bounces see means over many elements, and add one and the same deviation to all,
 ///
 ///   shared² = (rho / (1 - rho))² Var(mean H),   Var(mean H) = sum_{i<j} e_ij² (B_i + B_j)² / A² = sum_ij e_ij² (B_j² + B_i B_j) / A²

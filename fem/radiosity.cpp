@@ -167,11 +167,11 @@ void require_compatible_projection(const RadiositySettings& settings) {
   const auto refuse = [](const std::string& what) {
     throw core::InputError("unknowns that are values at nodes", "they do not go with " + what);
   };
+  if (settings.adaptive) refuse("elements made for a goal");
   if (settings.projection == Projection::centroids && settings.order != 0)
     refuse("polynomials: at centroids there are constants, of order 0");
   if (at_corners(settings.projection) && settings.order != 1)
     refuse(core::format("order %d: between corners there are linear functions, of order 1", settings.order));
-  if (settings.adaptive) refuse("elements made for a goal");
   if (settings.closure != "none") refuse("a closure that is restored");
   if (settings.drop_below > 0) refuse("pairs left out (drop-below)");
   if (settings.stored_factors) refuse("view factors of a file");

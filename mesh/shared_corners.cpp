@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "mesh/shared_points.h"
 
@@ -66,15 +67,18 @@ class Side {
   const SharedCorners::Mean& mean_of(std::uint32_t corner) {
     SharedCorners::Mean& mean = means_[corner];
     if (!mean.empty()) return mean;
-    if (!corners_[corner].hangs_between) {
+    // Taken out: of corners that hang on each other's edges all round, as on a zip, one is free.
+    const auto ends = std::exchange(corners_[corner].hangs_between, std::nullopt);
+    if (!ends) {
       mean = {{static_cast<std::uint32_t>(out_.position.size()), 1.0}};
       out_.position.push_back(corners_[corner].position);
       out_.element.push_back(corners_[corner].element);
       return mean;
     }
     std::map<std::uint32_t, double> weights;
-    for (const std::uint32_t end : *corners_[corner].hangs_between)
+    for (const std::uint32_t end : *ends)
       for (const SharedCorners::Part& part : mean_of(end)) weights[part.corner] += 0.5 * part.weight;
+    if (!mean.empty()) return mean;  // that one
     for (const auto& [free, weight] : weights) mean.push_back({free, weight});
     return mean;
   }

@@ -19,7 +19,7 @@ void require_blocks(const System& system) {
         throw core::PreconditionError("solve: a block of R has another shape");
       const Eigen::VectorXd rho =
           Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(R, Eigen::EigenvaluesOnly).eigenvalues();
-      if (!(rho.minCoeff() >= -rounding && rho.maxCoeff() <= 1 + rounding))
+      if (!(rho.minCoeff() >= -rounding && rho.maxCoeff() <= 1 + rounding) || !R.isApprox(R.transpose(), rounding))
         throw core::InputError(
             core::format("reflectance of unknowns from %td on: 0 <= reflectance <= 1 expected", block.first));
     }

@@ -45,6 +45,33 @@ TEST(SharedCorners, are_means_of_corners_that_do_not_hang) {
   }
 }
 
+// Quads on both sides of a line whose corners there alternate, each in the middle of the other side's edge: none can hang
+// on all others.
+TEST(SharedCorners, that_hang_on_each_other_are_told_apart) {
+  scene::SceneBuilder builder({"y"}, scene::Quantity::radiometric);
+  const scene::Material white{"white", Spectrum(.5), Spectrum(0.0), scene::Sides::front};
+  const auto id =
+      builder.add_polygon("zip", {{{0, -1, 0}, {6, -1, 0}, {6, 1, 0}, {0, 1, 0}}, {}}, builder.add_material(white));
+  std::vector<scene::SurfacePatch> patches;
+  for (const double x : {0., 2., 4.}) {
+    const std::array<Vec3, 4> below{Vec3(x, -1, 0), Vec3(x + 2, -1, 0), Vec3(x + 2, 0, 0), Vec3(x, 0, 0)},
+        above{Vec3(x + 1, 0, 0), Vec3(x + 3, 0, 0), Vec3(x + 3, 1, 0), Vec3(x + 1, 1, 0)};
+    patches.push_back(scene::make_patch(id, scene::Side::front, below));
+    patches.push_back(scene::make_patch(id, scene::Side::front, above));
+  }
+  const ElementMesh mesh(std::move(patches));
+  const SharedCorners corners = shared_corners(mesh);
+  for (const auto& of_element : corners.of)
+    for (const SharedCorners::Mean& mean : of_element) {
+      double sum = 0;
+      for (const auto& part : mean) {
+        sum += part.weight;
+        EXPECT_LT(part.corner, corners.position.size());
+      }
+      EXPECT_NEAR(sum, 1, 1e-15);
+    }
+}
+
 // A grid of n x n quads has (n + 1)² corners, and the element that each names has it.
 TEST(SharedCorners, of_a_grid_are_counted_once) {
   scene::SceneBuilder builder({"y"}, scene::Quantity::radiometric);
