@@ -10,12 +10,6 @@ namespace {
 
 using solvers::ColumnMatrix;
 
-Space space_of(const mesh::ElementMesh& mesh, int order) {
-  std::vector<Panel> panels;
-  for (const scene::SurfacePatch& patch : mesh.patches()) panels.push_back(panel_of(patch));
-  return {std::move(panels), order};
-}
-
 /// Values of elements at their nodes.
 ColumnMatrix at_nodes(const NodeSet& nodes, std::span<const Spectrum> of_elements, int channels) {
   const ColumnMatrix values = to_columns(of_elements, channels);
@@ -29,7 +23,7 @@ ColumnMatrix at_nodes(const NodeSet& nodes, std::span<const Spectrum> of_element
 NodeEquations node_equations(Projection projection, const scene::Scene& scene, const mesh::ElementMesh& mesh, int order,
                              const SymmetricOperator& K, Run& run) {
   if (projection == Projection::galerkin) throw core::PreconditionError("node_equations: Galerkin's have no nodes");
-  const Space space = space_of(mesh, order);
+  const Space space = space_on(mesh.patches(), order);
   NodeSet nodes = at_corners(projection) ? corner_nodes(space, mesh) : gauss_nodes(space);
   if (projection == Projection::continuous) {
     NodeOperator T = continuous_galerkin(K, nodes, run);

@@ -1,6 +1,6 @@
 #include "fem/form_factor/gauss_lambert.h"
 
-#include <algorithm>
+#include "fem/form_factor/sampled_pair.h"
 
 namespace interflect::fem {
 
@@ -9,12 +9,8 @@ class GaussLambert::Rays final : public PairOcclusion {
   explicit Rays(const GaussLambert& method) : method_(method) {}
 
   ExchangeEntry operator()(const DoubtfulPair& pair, PairCounts& counts) override {
-    const ElementShapes& shapes = method_.shapes();
     const double value = pair.unoccluded.value;
-    const Effort effort = effort_for(value / std::min(shapes[pair.i].area, shapes[pair.j].area));
-    const SampledVisibility v = method_.visibility_(pair.i, pair.j, effort, workspace_);
-    ++counts.sampled;
-    counts.rays += static_cast<std::uint64_t>(v.rays);
+    const SampledVisibility v = sampled(pair, method_.shapes(), method_.visibility_, workspace_, counts);
     return {value * v.visible, value * v.standard_error, pair.unoccluded.error};
   }
 

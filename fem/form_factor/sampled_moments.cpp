@@ -1,7 +1,8 @@
 #include "fem/form_factor/sampled_moments.h"
 
-#include <algorithm>
 #include <numeric>
+
+#include "fem/form_factor/sampled_pair.h"
 
 namespace interflect::fem {
 
@@ -13,12 +14,8 @@ class SampledMoments::Work final : public PairWork {
     method_.moments_.write(i, j, method_.moments_.of(i, j)(i, j, K), 0, sink);
   }
   void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) override {
-    const ElementShapes& shapes = method_.shapes();
     const double K_00 = pair.unoccluded.value;
-    const Effort effort = effort_for(K_00 / std::min(shapes[pair.i].area, shapes[pair.j].area));
-    const SampledVisibility v = method_.visibility_(pair.i, pair.j, effort, workspace_);
-    ++counts.sampled;
-    counts.rays += static_cast<std::uint64_t>(v.rays);
+    const SampledVisibility v = sampled(pair, method_.shapes(), method_.visibility_, workspace_, counts);
     const MomentIntegrator& moments = method_.moments_.of(pair.i, pair.j);
     PairMoments block = moments(pair.i, pair.j, pair.unoccluded);
     block.value *= v.visible;

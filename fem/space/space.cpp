@@ -25,6 +25,12 @@ Space::Space(std::vector<Panel> panels, int order) : order_(order), panels_(std:
   layout_.owned_end = layout_.unknowns();
 }
 
+Space space_on(std::span<const scene::SurfacePatch> patches, int order) {
+  std::vector<Panel> panels;
+  for (const scene::SurfacePatch& patch : patches) panels.push_back(panel_of(patch));
+  return {std::move(panels), order};
+}
+
 PanelNodes Space::nodes(Index i, const Rule& rule) const {
   const auto ring = panel(i).ring();
   PanelNodes nodes;

@@ -69,4 +69,7 @@ class Space {
   std::vector<double> gram_;
 };
 
+/// On elements of a scene.
+Space space_on(std::span<const scene::SurfacePatch> patches, int order);
+
 }  // namespace interflect::fem

@@ -5,20 +5,13 @@
 #include <cmath>
 
 #include "tests/fem/rooms.h"
+#include "tests/fem/space/polynomial_settings.h"
 
 namespace interflect::fem {
 namespace {
 
+using test::polynomial_settings;
 using test::Room;
-
-RadiositySettings settings_of(int order, double element_size, double tolerance) {
-  RadiositySettings settings;
-  settings.order = order;
-  settings.form_factors = "analytic";
-  settings.element_size = element_size;
-  settings.quadrature_tolerance = tolerance;
-  return settings;
-}
 
 scene::Scene lit_room(double scale) {
   Room room;
@@ -37,7 +30,7 @@ TEST(Residual, of_a_furnace_is_nothing) {
   core::LocalRun run(1, 2);
   for (const int order : {0, 1}) {
     const ResidualNorms found =
-        residual_norms(scene, solve_radiosity(scene, settings_of(order, 2, 1e-5), run.get()), run.get());
+        residual_norms(scene, solve_radiosity(scene, polynomial_settings(order, 2, 1e-5), run.get()), run.get());
     EXPECT_LT(found.largest[0], 1e-4) << order;
     EXPECT_NEAR(found.largest_bound[0], found.largest[0] / .4, 1e-12);
     EXPECT_LE(found.rms[0], found.largest[0]);
@@ -50,10 +43,10 @@ TEST(Residual, bounds_the_error) {
   for (const double scale : {1e-6, 1., 1e6}) {
     const scene::Scene scene = lit_room(scale);
     core::LocalRun run(1, 2);
-    const RadiositySolution truth = solve_radiosity(scene, settings_of(2, .45 * scale, 1e-4), run.get());
+    const RadiositySolution truth = solve_radiosity(scene, polynomial_settings(2, .45 * scale, 1e-4), run.get());
     for (const int order : {0, 1}) {
       if (order == 0 && scale != 1) continue;
-      const RadiositySolution s = solve_radiosity(scene, settings_of(order, 1.5 * scale, 1e-5), run.get());
+      const RadiositySolution s = solve_radiosity(scene, polynomial_settings(order, 1.5 * scale, 1e-5), run.get());
       const ResidualNorms found = residual_norms(scene, s, run.get());
       double squares = 0, area = 0;
       for (std::size_t i = 0; i < truth.radiosity.size(); ++i) {
@@ -82,7 +75,7 @@ TEST(Residual, bounds_nothing_where_nothing_is_absorbed) {
   const scene::Scene scene = room.finish();
   core::LocalRun run(1, 2);
   const ResidualNorms found =
-      residual_norms(scene, solve_radiosity(scene, settings_of(0, 2, 1e-3), run.get()), run.get());
+      residual_norms(scene, solve_radiosity(scene, polynomial_settings(0, 2, 1e-3), run.get()), run.get());
   EXPECT_TRUE(std::isinf(found.rms_bound[0]));
   EXPECT_TRUE(std::isfinite(found.rms[0]));
 }

@@ -15,12 +15,6 @@ namespace {
 
 using test::Room;
 
-Space space_of(const mesh::ElementMesh& mesh, int order) {
-  std::vector<Panel> panels;
-  for (const scene::SurfacePatch& patch : mesh.patches()) panels.push_back(panel_of(patch));
-  return {std::move(panels), order};
-}
-
 /// A triangle and a parallelogram, far apart, and cut so that corners hang, twice over.
 mesh::ElementMesh hanging() {
   Room room;
@@ -46,11 +40,10 @@ double linear(const Vec3& x) { return .3 + .2 * x.x() - .5 * x.y() + .1 * x.z();
 TEST(CornerNodes, hold_linear_functions) {
   const mesh::ElementMesh mesh = hanging();
   for (const int order : {1, 2}) {
-    const Space space = space_of(mesh, order);
+    const Space space = space_on(mesh.patches(), order);
     const NodeSet nodes = corner_nodes(space, mesh);
-    const mesh::ElementMesh& m = mesh;
     std::size_t corners = 0;
-    for (const scene::SurfacePatch& patch : m.patches()) corners += patch.corners;
+    for (const scene::SurfacePatch& patch : mesh.patches()) corners += patch.corners;
     EXPECT_LT(nodes.position.size(), corners);
     Eigen::VectorXd values(nodes.size());
     for (Index k = 0; k < nodes.size(); ++k) values[k] = linear(nodes.position[std::size_t(k)]);
@@ -67,7 +60,7 @@ TEST(CornerNodes, hold_linear_functions) {
 // Any values make a field without jumps: at each point that is on the edges of several elements all say the same.
 TEST(CornerNodes, make_continuous_fields) {
   const mesh::ElementMesh mesh = hanging();
-  const Space space = space_of(mesh, 2);
+  const Space space = space_on(mesh.patches(), 2);
   const NodeSet nodes = corner_nodes(space, mesh);
   Eigen::VectorXd values(nodes.size());
   for (Index k = 0; k < nodes.size(); ++k) values[k] = std::sin(double(k * k));

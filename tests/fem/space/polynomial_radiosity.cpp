@@ -5,20 +5,13 @@
 #include "core/error.h"
 #include "fem/radiosity_method.h"
 #include "tests/fem/rooms.h"
+#include "tests/fem/space/polynomial_settings.h"
 
 namespace interflect::fem {
 namespace {
 
+using test::polynomial_settings;
 using test::Room;
-
-RadiositySettings settings_of(int order, double element_size, double tolerance = 1e-4) {
-  RadiositySettings settings;
-  settings.order = order;
-  settings.form_factors = "analytic";
-  settings.element_size = element_size;
-  settings.quadrature_tolerance = tolerance;
-  return settings;
-}
 
 scene::Scene room_with_a_body(double reflectance, double exitance_of_floor, double exitance) {
   Room room;
@@ -50,7 +43,7 @@ TEST(PolynomialRadiosity, of_a_furnace_is_1_everywhere) {
   for (const int order : {1, 2}) {
     const scene::Scene scene = room_with_a_body(.6, .4, .4);
     core::LocalRun run(1, 2);
-    const RadiositySolution s = solve_radiosity(scene, settings_of(order, 1.1), run.get());
+    const RadiositySolution s = solve_radiosity(scene, polynomial_settings(order, 1.1), run.get());
     ASSERT_TRUE(s.field);
     EXPECT_EQ(s.field->order, order);
     EXPECT_TRUE(s.closed);
@@ -67,11 +60,11 @@ TEST(PolynomialRadiosity, of_a_furnace_is_1_everywhere) {
 TEST(PolynomialRadiosity, errs_less_than_it_states_and_less_with_each_order) {
   const scene::Scene scene = room_with_a_body(.5, 1, 0);
   core::LocalRun run(1, 2);
-  const RadiositySolution truth = solve_radiosity(scene, settings_of(2, .28), run.get());
+  const RadiositySolution truth = solve_radiosity(scene, polynomial_settings(2, .28), run.get());
   const auto at_points = answers(scene, truth, run.get());
   double stated_before = 1e9, error_before = 1e9;
   for (const int order : {0, 1, 2}) {
-    const RadiositySolution s = solve_radiosity(scene, settings_of(order, .55), run.get());
+    const RadiositySolution s = solve_radiosity(scene, polynomial_settings(order, .55), run.get());
     double stated = 0, error = 0;
     int beyond = 0, count = 0;
     for (const scene::SurfaceId id : scene.surface_ids()) {
@@ -107,10 +100,10 @@ TEST(PolynomialRadiosity, says_in_a_sentence_what_it_does_not_go_with) {
     }
     return "";
   };
-  RadiositySettings settings = settings_of(1, 1.1);
+  RadiositySettings settings = polynomial_settings(1, 1.1);
   settings.closure = "scaling";
   EXPECT_EQ(said(settings), "polynomials of order 1: they do not go with a closure that is restored");
-  settings = settings_of(2, 1.1);
+  settings = polynomial_settings(2, 1.1);
   settings.form_factors = "hemicube";
   EXPECT_EQ(said(settings),
             "form factors by 'hemicube': they are of constants: --order 0, or analytic or gauss-lambert, expected");

@@ -8,58 +8,21 @@
 #include "core/error.h"
 #include "fem/collocation.h"
 #include "solvers/solver.h"
+#include "tests/fem/space/facing_strips.h"
 #include "tests/fem/space/flatland.h"
 
 namespace interflect::fem {
 namespace {
 
+using test::ExactStrips;
+using test::facing_strips;
+using test::strip_exitance;
+
 /// Two strips of width 1, 0.5 apart, rho = 0.8 both, E = 1 on the first.
-constexpr double gap = .5, rho = .8;
+constexpr double rho = .8;
 
-/// Of so many segments a strip.
-std::vector<Panel> strips(int n) {
-  std::vector<Panel> panels;
-  for (int k = 0; k < n; ++k) panels.push_back(segment_panel({double(k) / n, 0, 0}, {double(k + 1) / n, 0, 0}));
-  for (int k = 0; k < n; ++k) panels.push_back(segment_panel({double(k + 1) / n, gap, 0}, {double(k) / n, gap, 0}));
-  return panels;
-}
-bool is_first(const Vec3& x) { return x.y() < .5 * gap; }
-double exitance(const Vec3& x) { return is_first(x) ? 1 : 0; }
-
-/// By Nystrom's method with Gauss points on either strip, which converges exponentially: to rounding here.
-class Exact {
- public:
-  Exact() {
-    const Rule rule = gauss_legendre(points);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(2 * points, 2 * points);
-    Eigen::VectorXd e = Eigen::VectorXd::Zero(2 * points);
-    e.head(points).setOnes();
-    for (int i = 0; i < points; ++i)
-      for (int j = 0; j < points; ++j) {
-        const double k = rho * weight(rule, j) * strip_kernel(rule[std::size_t(i)].u - rule[std::size_t(j)].u);
-        A(i, points + j) -= k;
-        A(points + i, j) -= k;
-      }
-    B_ = A.partialPivLu().solve(e);
-    rule_ = rule;
-  }
-  double operator()(const Vec3& x) const {
-    double sum = exitance(x);
-    const Index other = is_first(x) ? points : 0;
-    for (int j = 0; j < points; ++j)
-      sum += rho * weight(rule_, j) * strip_kernel(x.x() - rule_[std::size_t(j)].u) * B_[other + j];
-    return sum;
-  }
-
- private:
-  static constexpr int points = 60;
-  static double weight(const Rule& rule, int j) { return rule[std::size_t(j)].weight; }
-  static double strip_kernel(double dx) { return .5 * gap * gap / std::pow(gap * gap + dx * dx, 1.5); }
-  Eigen::VectorXd B_;
-  Rule rule_;
-};
-const Exact& exact() {
-  static const Exact solution;
+const ExactStrips& exact() {
+  static const ExactStrips solution([](double) { return rho; });
   return solution;
 }
 
@@ -100,7 +63,7 @@ Errors errors_of(const Space& space, const Eigen::VectorXd& c) {
       errors.nodal = std::max(errors.nodal,
                               std::abs(nodes.values.row(static_cast<Index>(k)).dot(own) - exact()(nodes.position[k])));
     for (const Vec3& x : fine.position) {
-      double B = exitance(x);
+      double B = strip_exitance(x);
       for (Index j = 0; j < std::ssize(space.panels()); ++j) {
         const PanelNodes& at = sources[static_cast<std::size_t>(j)];
         const Eigen::VectorXd b = at.values * c.segment(space.first(j), space.functions(j));
@@ -115,9 +78,9 @@ Errors errors_of(const Space& space, const Eigen::VectorXd& c) {
 }
 
 Errors by_galerkin(int n, int order) {
-  const Space space(strips(n), order);
+  const Space space(facing_strips(n), order);
   return errors_of(space, test::solved_in_flatland(
-                              space, rho, [](Index, const Vec3& x) { return exitance(x); }, inner_points));
+                              space, rho, [](Index, const Vec3& x) { return strip_exitance(x); }, inner_points));
 }
 
 /// Values at the nodes.
@@ -126,20 +89,20 @@ Eigen::VectorXd solved(const NodeSet& nodes, const NodeOperator& T) {
   solvers::ColumnMatrix rows(unknowns, unknowns);
   T.rows(0, unknowns, rows);
   Eigen::VectorXd e(unknowns);
-  for (Index a = 0; a < unknowns; ++a) e[a] = exitance(nodes.position[static_cast<std::size_t>(a)]);
+  for (Index a = 0; a < unknowns; ++a) e[a] = strip_exitance(nodes.position[static_cast<std::size_t>(a)]);
   const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(unknowns, unknowns) - rho * rows;
   return A.partialPivLu().solve(e);
 }
 
 Errors by_collocation(int n, int order) {
-  const Space space(strips(n), order);
+  const Space space(facing_strips(n), order);
   core::LocalRun run(1, 2);
   const NodeSet nodes = gauss_nodes(space);
   return errors_of(space, nodes.P * solved(nodes, collocation(space, nodes, FlatlandKernel(), inner_points, run)));
 }
 
 double largest_error_at_vertices(int n, int order) {
-  const Space space(strips(n), order);
+  const Space space(facing_strips(n), order);
   core::LocalRun run(1, 2);
   const NodeSet nodes = end_nodes(space);
   const Eigen::VectorXd B = solved(nodes, collocation(space, nodes, FlatlandKernel(), inner_points, run));
@@ -192,17 +155,17 @@ TEST(FlatlandStrips, collocation_at_vertices_gains_less) {
 }
 
 TEST(FlatlandStrips, collocation_of_constants_has_no_vertices) {
-  EXPECT_THROW(end_nodes(Space(strips(2), 0)), core::PreconditionError);
+  EXPECT_THROW(end_nodes(Space(facing_strips(2), 0)), core::PreconditionError);
 }
 
 // A solver that knows nothing of light gives the same: G is the identity, K is not symmetric.
 TEST(FlatlandStrips, collocation_is_an_operator_that_solvers_take) {
-  const Space space(strips(8), 1);
+  const Space space(facing_strips(8), 1);
   core::LocalRun run(1, 2);
   const NodeSet nodes = gauss_nodes(space);
   const NodeOperator T = collocation(space, nodes, FlatlandKernel(), inner_points, run);
   solvers::ColumnMatrix e(T.layout().unknowns(), 1);
-  for (Index a = 0; a < e.rows(); ++a) e(a, 0) = exitance(nodes.position[static_cast<std::size_t>(a)]);
+  for (Index a = 0; a < e.rows(); ++a) e(a, 0) = strip_exitance(nodes.position[static_cast<std::size_t>(a)]);
   const solvers::Reflection R(solvers::ColumnMatrix::Constant(e.rows(), 1, rho));
   const Eigen::VectorXd expected = solved(nodes, T);
   for (const std::string& name : solvers::solver_names()) {

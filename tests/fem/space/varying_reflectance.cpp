@@ -10,54 +10,18 @@
 #include "fem/operator/dense_symmetric.h"
 #include "solvers/solver.h"
 #include "tests/fem/rooms.h"
+#include "tests/fem/space/facing_strips.h"
 
 namespace interflect::fem {
 namespace {
 
-constexpr double gap = .5;
+using test::ExactStrips;
+using test::facing_strips;
+using test::strip_exitance;
 
 /// Reflectance that varies along both strips, and inside every element.
-double rho_at(const Vec3& x) { return .5 + .4 * std::sin(7 * x.x()); }
-
-/// Strips of width 1 that face each other; the first shines with 1.
-std::vector<Panel> strips(int n) {
-  std::vector<Panel> panels;
-  for (int k = 0; k < n; ++k) panels.push_back(segment_panel({double(k) / n, 0, 0}, {double(k + 1) / n, 0, 0}));
-  for (int k = 0; k < n; ++k) panels.push_back(segment_panel({double(k + 1) / n, gap, 0}, {double(k) / n, gap, 0}));
-  return panels;
-}
-bool is_first(const Vec3& x) { return x.y() < .5 * gap; }
-
-/// By Nystrom's method, which converges exponentially.
-class Exact {
- public:
-  Exact() : rule_(gauss_legendre(points)), B_(2 * points) {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(2 * points, 2 * points);
-    Eigen::VectorXd e = Eigen::VectorXd::Zero(2 * points);
-    e.head(points).setOnes();
-    for (int i = 0; i < points; ++i)
-      for (int j = 0; j < points; ++j) {
-        const double k = rho(i) * rule_[std::size_t(j)].weight * kernel(u(i) - u(j));
-        A(i, points + j) -= k;
-        A(points + i, j) -= k;
-      }
-    B_ = A.partialPivLu().solve(e);
-  }
-  double operator()(const Vec3& x) const {
-    double H = 0;
-    for (int j = 0; j < points; ++j)
-      H += rule_[std::size_t(j)].weight * kernel(x.x() - u(j)) * B_[(is_first(x) ? points : 0) + j];
-    return (is_first(x) ? 1 : 0) + rho_at(x) * H;
-  }
-
- private:
-  static constexpr int points = 80;
-  double u(int i) const { return rule_[std::size_t(i)].u; }
-  double rho(int i) const { return rho_at({u(i), 0, 0}); }
-  static double kernel(double dx) { return .5 * gap * gap / std::pow(gap * gap + dx * dx, 1.5); }
-  Rule rule_;
-  Eigen::VectorXd B_;
-};
+double rho_along(double x) { return .5 + .4 * std::sin(7 * x); }
+double rho_at(const Vec3& x) { return rho_along(x.x()); }
 
 struct Errors {
   double L2, functional;
@@ -65,8 +29,8 @@ struct Errors {
 
 /// @param mean  one number an element in the place of what varies
 Errors errors_of(int n, int order, bool mean) {
-  static const Exact exact;
-  const Space space(strips(n), order);
+  static const ExactStrips exact(rho_along);
+  const Space space(facing_strips(n), order);
   test::LastEntrySink sink(space.gram().size());
   core::LocalRun run(1, 2);
   galerkin(space, FlatlandKernel(), ProductPairRule(14), sink, run.get());
@@ -88,7 +52,7 @@ Errors errors_of(int n, int order, bool mean) {
   const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(blocks.rows(), blocks.rows()) -
                             blocks * (G.cwiseInverse().asDiagonal() * sink.K).eval();
   const Eigen::VectorXd c =
-      A.partialPivLu().solve(space.project([](Index, const Vec3& x) { return is_first(x) ? 1 : 0; }, order + 1));
+      A.partialPivLu().solve(space.project([](Index, const Vec3& x) { return strip_exitance(x); }, order + 1));
   Errors errors{space.distance(
                     c, [](Index, const Vec3& x) { return exact(x); }, 10),
                 0};
@@ -142,13 +106,13 @@ TEST(VaryingReflectance, has_exact_blocks) {
 
 // Jacobi's method solves with blocks what elimination does; Gauss-Seidel's says that it cannot.
 TEST(VaryingReflectance, is_solved_for) {
-  const Space space(strips(6), 1);
+  const Space space(facing_strips(6), 1);
   core::LocalRun run(1, 2);
   DenseSymmetric K({space.gram().begin(), space.gram().end()});
   galerkin(space, FlatlandKernel(), ProductPairRule(8), K, run.get());
   const solvers::Reflection R = varying_reflectance(
       space, [](Index, const Vec3& x) { return Spectrum(rho_at(x)); }, 1, 6);
-  solvers::ColumnMatrix e = space.project([](Index, const Vec3& x) { return is_first(x) ? 1 : 0; }, 2);
+  solvers::ColumnMatrix e = space.project([](Index, const Vec3& x) { return strip_exitance(x); }, 2);
   solvers::SolverState state{e, 0};
   ASSERT_TRUE(solvers::make_solver("jacobi")->advance({K, R, e}, state, {1e-14, 1000}, run.get()).converged());
   solvers::ColumnMatrix h(e.rows(), 1), b = e;
