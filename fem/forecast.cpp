@@ -30,15 +30,25 @@ double bytes_a_pair_on_the_way(Granularity granularity) {
   return 0;
 }
 
+/// Beside K: T between nodes, of corners about one an element, and with `continuous` what it is made from.
+double bytes_at_nodes(double elements, const RadiositySettings& settings, double functions) {
+  if (settings.projection == Projection::galerkin) return 0;
+  const double a_side = at_corners(settings.projection) ? 1 : settings.order + 1, nodes = a_side * a_side * elements;
+  const double products = settings.projection == Projection::continuous ? functions * elements + nodes : 0;
+  return 8 * nodes * (nodes + products);
+}
+
 /// Of polynomials K of constants and of all functions; else K and its errors (8 and at most 4 bytes a pair), with the coarse mesh's K (a sixteenth of its entries); sparse: at
 /// most N / drop_below pairs of 20 bytes while they come, 16 afterwards, and a coarse K of as many entries or a
 /// sixteenth of all.  And what each element carries.
 double predicted_bytes(double elements, const RadiositySettings& settings, Granularity granularity) {
   const double pairs = 0.5 * elements * elements, on_the_way = pairs * bytes_a_pair_on_the_way(granularity),
                others = 4000.0 * elements;
-  const double an_entry = settings.form_factors == "analytic" ? 8 : 12;
-  if (settings.order > 0) return an_entry * (1 + std::pow(plane_functions(settings.order), 2)) * pairs + others;
-  if (!(settings.drop_below > 0)) return std::max(12 * pairs + on_the_way, 12.75 * pairs) + others;
+  const int order = at_corners(settings.projection) ? 2 : settings.order;  // as with quads
+  const double an_entry = settings.form_factors == "analytic" ? 8 : 12, functions = plane_functions(order),
+               at_nodes = bytes_at_nodes(elements, settings, functions);
+  if (order > 0) return an_entry * (1 + functions * functions) * pairs + at_nodes + others;
+  if (!(settings.drop_below > 0)) return std::max(12 * pairs + on_the_way, 12.75 * pairs) + at_nodes + others;
   const double kept = std::min(pairs, elements / settings.drop_below);
   return std::max(20 * kept + on_the_way, 16 * kept + 20 * std::min(kept, pairs / 16)) + others;
 }

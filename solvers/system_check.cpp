@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <vector>
 
 #include "core/error.h"
 #include "core/format.h"
@@ -9,20 +10,36 @@
 namespace interflect::solvers {
 namespace {
 
-void require_blocks(const System& system) {
-  constexpr double rounding = 1e-9;
+constexpr double rounding = 1e-9;
+
+/// The least reflectance of a block, which must be one.
+double least_of(const Reflection::Block& block, const Eigen::MatrixXd& R, Index unknowns) {
+  if (R.rows() != R.cols() || block.first < 0 || block.first + R.rows() > unknowns)
+    throw core::PreconditionError("solve: a block of R has another shape");
+  const Eigen::VectorXd rho = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(R, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(rho.minCoeff() >= -rounding && rho.maxCoeff() <= 1 + rounding) || !R.isApprox(R.transpose(), rounding))
+    throw core::InputError(
+        core::format("reflectance of unknowns from %td on: 0 <= reflectance <= 1 expected", block.first));
+  return rho.minCoeff();
+}
+
+/// Something must absorb, in every channel.
+void require_absorption(const System& system) {
+  const ColumnMatrix& rho = system.R.reflectance();
+  std::vector<bool> in_block(static_cast<std::size_t>(rho.rows()), false);
+  std::vector<bool> absorbs(static_cast<std::size_t>(rho.cols()), rho.rows() == 0);
   for (const Reflection::Block& block : system.R.blocks()) {
-    if (std::ssize(block.of_channel) != system.e.cols())
+    if (block.of_channel.size() != absorbs.size())
       throw core::PreconditionError("solve: a block of R has another number of channels");
-    for (const Eigen::MatrixXd& R : block.of_channel) {
-      if (R.rows() != R.cols() || block.first < 0 || block.first + R.rows() > system.e.rows())
-        throw core::PreconditionError("solve: a block of R has another shape");
-      const Eigen::VectorXd rho =
-          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(R, Eigen::EigenvaluesOnly).eigenvalues();
-      if (!(rho.minCoeff() >= -rounding && rho.maxCoeff() <= 1 + rounding) || !R.isApprox(R.transpose(), rounding))
-        throw core::InputError(
-            core::format("reflectance of unknowns from %td on: 0 <= reflectance <= 1 expected", block.first));
-    }
+    for (std::size_t c = 0; c < absorbs.size(); ++c)
+      if (least_of(block, block.of_channel[c], rho.rows()) < 1 - rounding) absorbs[c] = true;
+    if (absorbs.empty()) continue;
+    for (Index a = 0; a < block.of_channel[0].rows(); ++a) in_block[static_cast<std::size_t>(block.first + a)] = true;
+  }
+  for (std::size_t c = 0; c < absorbs.size(); ++c) {
+    for (Index a = 0; a < rho.rows() && !absorbs[c]; ++a)
+      absorbs[c] = !in_block[static_cast<std::size_t>(a)] && rho(a, static_cast<Index>(c)) < 1;
+    if (!absorbs[c]) throw core::InputError("every reflectance is 1: where nothing is absorbed there is no answer");
   }
 }
 
@@ -34,9 +51,7 @@ void require_solvable(const System& system) {
   const std::span<const double> G = system.K.gram();
   if (static_cast<Index>(G.size()) != n || system.e.rows() != n || rho.rows() != n || rho.cols() != system.e.cols())
     throw core::PreconditionError("solve: K, R and e have different shapes");
-  for (Index c = 0; c < rho.cols(); ++c)
-    if (n > 0 && system.R.diagonal() && (rho.col(c).array() >= 1).all())
-      throw core::InputError("every reflectance is 1: where nothing is absorbed there is no answer");
+  require_absorption(system);
   for (Index a = 0; a < n; ++a) {
     if (const double area = G[static_cast<std::size_t>(a)]; !(area > 0) || !std::isfinite(area))
       throw core::InputError(
@@ -49,7 +64,6 @@ void require_solvable(const System& system) {
         throw core::InputError(core::format("exitance %g of unknown %td: a finite number expected", system.e(a, c), a));
     }
   }
-  require_blocks(system);
 }
 
 bool prepare(const System& system, SolverState& state) {

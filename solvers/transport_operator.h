@@ -58,7 +58,6 @@ class Reflection {
   std::span<const Block> blocks() const { return blocks_; }
   bool diagonal() const { return blocks_.empty(); }
   void add_reflected(ConstColumns h, Columns b) const;
-  double max() const { return reflectance_.size() > 0 ? reflectance_.maxCoeff() : 0.0; }
 
  private:
   ColumnMatrix reflectance_;

@@ -22,11 +22,12 @@ struct AdaptivePass {
   Spectrum value;       ///< of the goal
   Spectrum correction;  ///< estimate of what it lacks
   Spectrum error;       ///< estimated bound
+  Spectrum quadrature;  ///< its part that form factors' own errors have
   double relative;      ///< the weighed error over the weighed value
   double seconds;       ///< since the start
 };
 
-enum class AdaptiveStop { met, memory, passes, only_asked, asked_to_stop, no_light };
+enum class AdaptiveStop { met, form_factors, memory, passes, only_asked, asked_to_stop, no_light };
 std::string describe(AdaptiveStop why);
 
 /// How elements came about that were made for a goal; there is a pass at least.

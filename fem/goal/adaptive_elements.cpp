@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include "core/error.h"
 #include "core/seconds_since.h"
@@ -128,12 +129,14 @@ Spectrum bound_of(const DualWeighted& found) {
   return missed * abs(found.correction) + cancelling_share * sizes + found.quadrature;
 }
 
-std::optional<AdaptiveStop> reason_to_stop(double value, double error, int pass, const AdaptiveSettings& adaptive) {
+std::optional<AdaptiveStop> reason_to_stop(const scene::Scene& scene, std::span<const AdaptivePass> passes,
+                                           const AdaptiveSettings& adaptive) {
+  const double value = scene.weigh(passes.back().value), allowed = adaptive.target * value;
   if (!(value > 0)) return AdaptiveStop::no_light;
   if (!(adaptive.target > 0)) return AdaptiveStop::only_asked;
-  if (error <= adaptive.target * value) return AdaptiveStop::met;
-  if (pass == adaptive.most_passes) return AdaptiveStop::passes;
-  return std::nullopt;
+  if (scene.weigh(passes.back().error) <= allowed) return AdaptiveStop::met;
+  if (std::ssize(passes) < adaptive.most_passes) return std::nullopt;
+  return scene.weigh(passes.back().quadrature) > allowed ? AdaptiveStop::form_factors : AdaptiveStop::passes;
 }
 
 }  // namespace
@@ -142,6 +145,8 @@ std::string describe(AdaptiveStop why) {
   switch (why) {
     case AdaptiveStop::met:
       return "the estimate is met";
+    case AdaptiveStop::form_factors:
+      return "errors of form factors alone are larger: --quadrature-tolerance";
     case AdaptiveStop::memory:
       return "more elements need more memory than --max-memory allows";
     case AdaptiveStop::passes:
@@ -171,10 +176,7 @@ class Passes {
     DualWeighted found = pass(elements, adaptation);
     try {
       for (;;) {
-        const AdaptivePass& last = adaptation.passes.back();
-        const double value = scene_.weigh(last.value), error = scene_.weigh(last.error);
-        const auto passes = static_cast<int>(adaptation.passes.size());
-        if (const auto stop = reason_to_stop(value, error, passes, adaptive_)) {
+        if (const auto stop = reason_to_stop(scene_, adaptation.passes, adaptive_)) {
           adaptation.why = *stop;
           break;
         }
@@ -206,7 +208,8 @@ class Passes {
     const Spectrum bound = bound_of(found);
     const double value = scene_.weigh(found.value);
     adaptation.passes.push_back({elements.mesh.size(), unknowns(elements.degree), found.value, found.correction, bound,
-                                 value > 0 ? scene_.weigh(bound) / value : 0.0, core::seconds_since(start_)});
+                                 found.quadrature, value > 0 ? scene_.weigh(bound) / value : 0.0,
+                                 core::seconds_since(start_)});
     return found;
   }
 

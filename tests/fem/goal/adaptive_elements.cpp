@@ -161,10 +161,14 @@ TEST(AdaptiveElements, say_why_they_stopped) {
   core::LocalRun run(1, 2);
   RadiositySettings settings = settings_of(1);
   settings.element_size = 2.1;
-  EXPECT_EQ(adapt_elements(scene, settings, {far_plane(), 1e-9, 2}, *rays, run.get()).adaptation.why,
+  EXPECT_EQ(adapt_elements(scene, settings, {far_plane(), 1e-4, 2}, *rays, run.get()).adaptation.why,
             AdaptiveStop::passes);
+  RadiositySettings rough = settings;
+  rough.quadrature_tolerance = .1;
+  EXPECT_EQ(adapt_elements(scene, rough, {far_plane(), 1e-5, 2}, *rays, run.get()).adaptation.why,
+            AdaptiveStop::form_factors);
   settings.max_memory = 600e3;
-  EXPECT_EQ(adapt_elements(scene, settings, {far_plane(), 1e-9}, *rays, run.get()).adaptation.why,
+  EXPECT_EQ(adapt_elements(scene, settings, {far_plane(), 1e-4}, *rays, run.get()).adaptation.why,
             AdaptiveStop::memory);
   const Goal nowhere{"nowhere", Goal::AtPoints{{{{-1, 1, 1}, -Vec3::UnitX(), {}}}}};
   EXPECT_THROW(adapt_elements(scene, settings, {nowhere, 1e-2}, *rays, run.get()), core::InputError);

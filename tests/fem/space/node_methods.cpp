@@ -230,6 +230,30 @@ TEST(NodeMethods, agree_within_what_they_state) {
   }
 }
 
+// Whoever is told what fits is told of the operator between nodes too.
+TEST(NodeMethods, count_their_memory) {
+  const scene::Scene scene = furnished(.6, .4);
+  core::LocalRun run(1, 2);
+  const auto bytes = [&](Projection projection) {
+    RadiositySettings settings;
+    settings.form_factors = "analytic";
+    settings.order = 1;
+    settings.element_size = .2;
+    settings.projection = projection;
+    return forecast(scene, settings, run.get()).bytes;
+  };
+  const double galerkin = bytes(Projection::galerkin), elements = 4 * double(mesh::uniform(scene, .4).size());
+  EXPECT_NEAR(bytes(Projection::gauss_points) - galerkin, 8 * std::pow(4 * elements, 2), .3 * galerkin);
+  EXPECT_GT(bytes(Projection::continuous), 3 * galerkin);  // of order 2
+  RadiositySettings settings;
+  settings.form_factors = "analytic";
+  settings.order = 1;
+  settings.element_size = .2;
+  settings.projection = Projection::gauss_points;
+  settings.max_memory = 1.2 * galerkin;
+  EXPECT_THROW(forecast(scene, settings, run.get()), core::InputError);
+}
+
 TEST(NodeMethods, refuse_what_they_cannot_have) {
   const scene::Scene scene = furnished(.6, .4);
   const auto with = [&](Projection projection, int order) {

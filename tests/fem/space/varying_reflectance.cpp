@@ -125,6 +125,9 @@ TEST(VaryingReflectance, is_solved_for) {
   const solvers::Reflection too_much = varying_reflectance(
       space, [](Index, const Vec3&) { return Spectrum(1.1); }, 1, 2);
   EXPECT_THROW(solvers::make_solver("jacobi")->advance({K, too_much, e}, state, {}, run.get()), core::InputError);
+  const solvers::Reflection all = varying_reflectance(
+      space, [](Index, const Vec3&) { return Spectrum(1.0); }, 1, 2);
+  EXPECT_THROW(solvers::make_solver("jacobi")->advance({K, all, e}, state, {}, run.get()), core::InputError);
 }
 
 }  // namespace
