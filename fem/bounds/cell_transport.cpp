@@ -10,7 +10,6 @@
 namespace interflect::fem {
 namespace {
 
-using solvers::ColumnMatrix;
 using Row = Eigen::RowVectorXd;
 
 /// The number with half of the weight on either side; 0 of none.
@@ -72,17 +71,17 @@ double known(const SmoothSum& sum, double radius) {
 
 class Examination {
  public:
-  Examination(const ColumnMatrix& b, bool closed, const Cell& whole, int deepest)
+  Examination(const LinearField& b, bool closed, const Cell& whole, int deepest)
       : b_(b), closed_(closed), whole_(whole), deepest_(deepest) {}
 
   CellTransport operator()(const Surroundings& around) {
     CellView view(around, whole_);
-    middle_ = closed_ ? median(view) : Row(Row::Zero(b_.cols()));
-    ShiftedSum before(b_.cols(), middle_);
+    middle_ = closed_ ? median(view) : Row(Row::Zero(b_.channels()));
+    ShiftedSum before(b_.channels(), middle_);
     add(view.far(), before);
-    view.refine([&](Index element) { return (b_.row(element) - middle_).cwiseAbs().sum(); },
-                0.1 * known(before.of_b, whole_.radius), 32 + static_cast<std::size_t>(b_.rows()) / 8);
-    ShiftedSum far(b_.cols(), middle_);
+    view.refine([&](const PartSeen& part) { return worth(part); }, 0.1 * known(before.of_b, whole_.radius),
+                32 + static_cast<std::size_t>(b_.elements()) / 8);
+    ShiftedSum far(b_.channels(), middle_);
     add(view.far(), far);
     tolerance_ = 0.2 * known(far.of_b, whole_.radius);
     examine(view, whole_, far, 0, 0);
@@ -91,21 +90,35 @@ class Examination {
 
  private:
   Row median(const CellView& view) const {
-    Row m(b_.cols());
+    Row m(b_.channels());
     std::vector<std::pair<double, double>> values;
-    for (Index c = 0; c < b_.cols(); ++c) {
+    for (Index c = 0; c < b_.channels(); ++c) {
       values.clear();
-      for (const PartSeen& part : view.near()) values.emplace_back(b_(part.element, c), part.factor.most);
+      for (const PartSeen& part : view.near()) values.emplace_back(on(part, c).mean, part.factor.most);
       if (values.empty())
-        for (const PartSeen& part : view.far()) values.emplace_back(b_(part.element, c), part.factor.remainder);
+        for (const PartSeen& part : view.far()) values.emplace_back(on(part, c).mean, part.factor.remainder);
       m[c] = weighted_median(values);
     }
     return m;
   }
+  LinearField::OnPart on(const PartSeen& part, Index channel) const {
+    return b_.on(part.element, part.ring.ring(), channel);
+  }
+  double worth(const PartSeen& part) const {
+    double sum = 0;
+    for (Index c = 0; c < b_.channels(); ++c) {
+      const LinearField::OnPart b = on(part, c);
+      sum += std::max(b.upper - middle_[c], middle_[c] - b.lower);
+    }
+    return sum;
+  }
   void add(std::span<const PartSeen> parts, ShiftedSum& sum) const {
     for (const PartSeen& part : parts) {
       sum.add_factor(part.factor);
-      for (Index c = 0; c < b_.cols(); ++c) sum.add(part.factor, c, b_(part.element, c));
+      for (Index c = 0; c < b_.channels(); ++c) {
+        const LinearField::OnPart b = on(part, c);
+        sum.add(part.factor, c, b.mean, part.factor.across * b.deviation);
+      }
     }
   }
 
@@ -139,10 +152,7 @@ class Examination {
       far.shift(m);
     }
     double least = 0;
-    for (const PartSeen& part : view.near()) {
-      least += part.factor.least;
-      far.of_b.value += part.factor.least * (b_.row(part.element) - m);
-    }
+    for (const PartSeen& part : view.near()) least += part.factor.least;
     far.of_b.value += m;
     const auto left = [&](const Bounds& far_factors) { return std::max(0.0, 1 - far_factors.lower[0] - least); };
     const double left_everywhere = left(far.of_factors.everywhere(cell)),
@@ -160,25 +170,28 @@ class Examination {
             left_everywhere};
   }
 
-  /// Beyond the least.
+  /// @param left  what may be seen of near parts beyond the least
   Bounds of_near(const CellView& view, const Row& m, double left) const {
-    Bounds out = Bounds::zero(b_.cols());
+    Bounds out = Bounds::zero(b_.channels());
     Allotment high, low;
-    for (Index c = 0; c < b_.cols(); ++c) {
+    for (Index c = 0; c < b_.channels(); ++c) {
       high.clear();
       low.clear();
       for (const PartSeen& part : view.near()) {
-        const double b = b_(part.element, c) - m[c], room = part.factor.most - part.factor.least;
-        high.add(b, room);
-        low.add(-b, room);
+        const LinearField::OnPart b = on(part, c);
+        const double upper = b.upper - m[c], lower = b.lower - m[c], room = part.factor.most - part.factor.least;
+        out.upper[c] += part.factor.least * upper;
+        out.lower[c] += part.factor.least * lower;
+        high.add(upper, room);
+        low.add(-lower, room);
       }
-      out.upper[c] = high.largest_sum(left);
-      out.lower[c] = -low.largest_sum(left);
+      out.upper[c] += high.largest_sum(left);
+      out.lower[c] -= low.largest_sum(left);
     }
     return out;
   }
 
-  const ColumnMatrix& b_;
+  const LinearField& b_;
   bool closed_;
   const Cell& whole_;
   int deepest_;
@@ -210,6 +223,12 @@ void SmoothSum::move(const Vec2& way) {
   derivatives.row(1) += derivatives.row(3) * x + derivatives.row(4) * y;
 }
 
+void SmoothSum::scale(const Row& by) {
+  value = value.cwiseProduct(by);
+  doubt = doubt.cwiseProduct(by);
+  derivatives *= by.asDiagonal();
+}
+
 /// Of the linear part at the corners; of the quadratic one by its curvatures.
 Bounds SmoothSum::everywhere(const Cell& cell) const {
   Bounds change = Bounds::none(value.size());
@@ -235,7 +254,7 @@ Bounds SmoothSum::mean(const Cell& cell) const {
   return {curved - doubt, curved + doubt};
 }
 
-CellTransport transport_over(const Surroundings& around, const Cell& cell, const ColumnMatrix& b, bool closed,
+CellTransport transport_over(const Surroundings& around, const Cell& cell, const LinearField& b, bool closed,
                              int deepest) {
   return Examination(b, closed, cell, deepest)(around);
 }

@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fem/bounds/cell_view.h"
-#include "solvers/transport_operator.h"
+#include "fem/bounds/linear_field.h"
 
 namespace interflect::fem {
 
@@ -46,6 +45,7 @@ class SmoothSum {
       : value(Eigen::RowVectorXd::Zero(channels)), doubt(value), derivatives(Eigen::MatrixXd::Zero(5, channels)) {}
 
   void move(const Vec2& way);
+  void scale(const Eigen::RowVectorXd& by);  ///< >= 0
   /// Over a cell about whose centre it is.
   Bounds everywhere(const Cell& cell) const;
   Bounds mean(const Cell& cell) const;
@@ -101,19 +101,22 @@ struct Leaf {
   double left;
 };
 
-/// (T b)(x) = int k(x, y) b(y) dy of constants b on elements, over a cell.
+/// (T b)(x) = int k(x, y) b(y) dy of what is linear on elements, over a cell: of a part P that is known, with the mean b_P,
 ///
-/// From within the box around the scene sum_j F_j = 1, so that with any number m
+///   |int_P k b - F_P(x) b_P| <= across mean |b - b_P|                                             (factor_range.h)
 ///
-///   (T b)(x) = m + sum_j (b_j - m) F_j(x)
+/// From within the box around the scene sum_P F_P = 1, so that with any number m
 ///
-/// m is the median of near elements' b_j, by the most that they may send: what the cell's neighbours across an edge
-/// have.  From outside m = 0.  Of far parts derivatives add up with their signs, gradients are worth nothing over the mean
-/// of a cell; remainders in sum |b_j - m| remainder_j.  Near parts have
+///   (T b)(x) = m + sum_P (b_P - m) F_P(x)
 ///
-///   max and min of sum_j (b_j - m) F_j,    least_j <= F_j <= most_j,    sum_j F_j <= 1 - sum over far parts
+/// m is the median of near parts' b_P, by the most that they may send: what the cell's neighbours across an edge have.
+/// From outside m = 0.  Of far parts derivatives add up with their signs, gradients are worth nothing over the mean of a
+/// cell; remainders in sum |b_P - m| remainder_P.  Near parts have
 ///
-/// A cell most of whose doubt comes from near parts is cut into four, in which those alone are looked at again.
+///   max and min of sum_P (b - m) F_P,    least_P <= F_P <= most_P,    sum_P F_P <= 1 - sum over far parts
+///
+/// of the most and the least b on them.  A cell most of whose doubt comes from near parts is cut into four, in which those
+/// alone are looked at again.
 struct CellTransport {
   std::vector<Branch> branches;
   std::vector<Leaf> leaves;
@@ -122,7 +125,7 @@ struct CellTransport {
   const Cell& cell_of(const Leaf& leaf) const { return branches[leaf.branch].cell; }
 };
 /// @param deepest  how often the cell may be cut
-CellTransport transport_over(const Surroundings& around, const Cell& cell, const solvers::ColumnMatrix& b, bool closed,
-                             int deepest = 3);
+CellTransport transport_over(const Surroundings& around, const Cell& cell, const LinearField& b, bool closed,
+                             int deepest);
 
 }  // namespace interflect::fem

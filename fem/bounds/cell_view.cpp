@@ -5,7 +5,6 @@
 #include <optional>
 #include <queue>
 
-#include "geometry/clip.h"
 #include "scene/place.h"
 
 namespace interflect::fem {
@@ -71,6 +70,13 @@ double size_of(std::span<const Vec3> ring) {
   for (std::size_t k = 0; k < ring.size(); ++k)
     for (std::size_t l = 0; l < k; ++l) square = std::max(square, (ring[k] - ring[l]).squaredNorm());
   return 0.5 * std::sqrt(square);
+}
+
+geometry::ConvexRing whole_ring(std::span<const Vec3> ring) {
+  geometry::ConvexRing out;
+  std::copy(ring.begin(), ring.end(), out.corner.begin());
+  out.corners = static_cast<int>(ring.size());
+  return out;
 }
 
 }  // namespace
@@ -156,14 +162,11 @@ void CellView::look(Index element, const Piece& piece, const Candidates* among) 
     highest = std::max(highest, shape.plane.distance(x));
   }
   if (highest <= 0) return;
-  geometry::ConvexRing above;
-  std::span<const Vec3> ring = piece.ring();
-  const bool crosses = std::any_of(ring.begin(), ring.end(), [&](const Vec3& y) { return horizon_.distance(y) < 0; });
-  if (crosses) {
-    above = geometry::clip(piece.ring(), horizon_);
-    if (above.corners == 0) return;
-    ring = above.ring();
-  }
+  const std::span<const Vec3> all = piece.ring();
+  const bool crosses = std::any_of(all.begin(), all.end(), [&](const Vec3& y) { return horizon_.distance(y) < 0; });
+  const geometry::ConvexRing above = crosses ? geometry::clip(all, horizon_) : whole_ring(all);
+  if (above.corners == 0) return;
+  const std::span<const Vec3> ring = above.ring();
   Candidates by;
   const Hidden is_hidden = hidden(ring, among, by);
   if (is_hidden == Hidden::all) return;
@@ -175,7 +178,7 @@ void CellView::look(Index element, const Piece& piece, const Candidates* among) 
           : factor.most > too_little &&
                 size_of(piece.ring()) > std::max(1.2 * size_of(cell_.ring), smallest_part * size_of(shape.ring()));
   if (can_say_more) return look_at_quarters(element, piece, by);
-  const PartSeen part{element, piece.node, piece.whole && !crosses, factor};
+  const PartSeen part{element, piece.node, piece.whole && !crosses, factor, above};
   if (far) {
     far_.push_back(part);
     return;
@@ -193,13 +196,13 @@ void CellView::look_at_quarters(Index element, const Piece& piece, const Candida
   }
 }
 
-void CellView::refine(const std::function<double(Index element)>& worth, double tolerance, std::size_t cuts) {
+void CellView::refine(const std::function<double(const PartSeen&)>& worth, double tolerance, std::size_t cuts) {
   using Entry = std::pair<double, std::size_t>;  // doubt, part
   std::priority_queue<Entry> open;
   double doubt = 0;
   const auto add = [&](std::size_t part) {
     if (pieces_[part].candidates.empty()) return;
-    const double of_part = worth(near_[part].element) * (near_[part].factor.most - near_[part].factor.least);
+    const double of_part = worth(near_[part]) * (near_[part].factor.most - near_[part].factor.least);
     doubt += of_part;
     if (of_part > 0) open.push({of_part, part});
   };

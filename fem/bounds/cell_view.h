@@ -9,6 +9,7 @@
 #include "fem/form_factor/blockers.h"
 #include "fem/form_factor/element_clusters.h"
 #include "fem/form_factor/pair_shadow.h"
+#include "geometry/clip.h"
 #include "scene/scene.h"
 
 namespace interflect::fem {
@@ -27,6 +28,7 @@ struct PartSeen {
   int node;    ///< of its quarter tree: what the part is, or is a part of
   bool whole;  ///< all of the node
   FactorRange factor;
+  geometry::ConvexRing ring;  ///< what of it is above the cell's horizon
 };
 
 /// All elements, to be looked at from cells.  In an open scene black ones are behind them: sides of surfaces that have no
@@ -71,10 +73,10 @@ class CellView {
 
   /// Cuts near parts into four of which some may be hidden, until
   ///
-  ///   sum worth(element) (most - least)  <=  tolerance
+  ///   sum worth(part) (most - least)  <=  tolerance
   ///
   /// over all such, or `cuts` were made; the largest first.
-  void refine(const std::function<double(Index element)>& worth, double tolerance, std::size_t cuts);
+  void refine(const std::function<double(const PartSeen&)>& worth, double tolerance, std::size_t cuts);
 
  private:
   using Candidates = std::vector<std::uint32_t>;

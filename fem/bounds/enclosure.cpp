@@ -58,6 +58,12 @@ std::size_t bytes_of(const CellTransport& transport) {
          transport.leaves.size() * sizeof(Leaf);
 }
 
+/// How often a cell may be cut: a few large elements are cut once more, which there is time for.
+int cuts_of(Index elements) {
+  constexpr Index few = 160;
+  return elements <= few ? 4 : 3;
+}
+
 /// A ray may be lost in the seam of two walls; an opening is missing in the rows of all that see it.
 bool is_closed(const RadiositySolution& solution) {
   constexpr double nothing = 1e-4;
@@ -71,21 +77,22 @@ class Enclosure::Iteration {
   Iteration(const scene::Scene& scene, const RadiositySolution& solution)
       : patches_(solution.mesh.patches()),
         around_(scene, patches_, is_closed(solution)),
-        factors_(scene, patches_),
-        B_(to_columns(solution.radiosity, scene.channel_count())),
+        field_(solution.field ? &*solution.field : nullptr),
+        factors_(scene, patches_, field_ ? std::min(1, field_->order) : 0),
+        B_(around_, solution, scene.channel_count()),
         exitance_(to_columns(solution.exitance, scene.channel_count())),
         reflectance_(to_columns(solution.reflectance, scene.channel_count())),
-        elements_(B_.rows()),
-        channels_(B_.cols()),
-        all_B_(ColumnMatrix::Zero(around_.elements(), channels_)),
-        slack_(1e-11 * B_.cwiseAbs().maxCoeff()),
+        elements_(exitance_.rows()),
+        channels_(exitance_.cols()),
+        slack_(1e-11 * B_.largest()),
         transports_(patches_.size()),
+        constants_(to_columns(solution.radiosity, scene.channel_count())),
         H_(elements_, channels_),
         mean_H_(elements_, channels_),
+        e_(elements_, channels_),
         r_(around_.elements(), channels_),
         g_(around_.elements() * QuarterTree::nodes, channels_),
         covers_(patches_.size()) {
-    all_B_.topRows(elements_) = B_;
     const Index black = around_.elements() - elements_, nodes = black * QuarterTree::nodes;
     reflectance_.conservativeResize(around_.elements(), Eigen::NoChange);
     reflectance_.bottomRows(black).setZero();
@@ -99,7 +106,7 @@ class Enclosure::Iteration {
     run.threads.for_blocks(elements_, 1, [&](Index element, Index) {
       run.throw_if_stopped("bounds");
       const auto k = static_cast<std::size_t>(element);
-      transports_[k] = transport_over(around_, around_.cell(patches_[k].ring()), all_B_, true);
+      transports_[k] = transport_over(around_, around_.cell(patches_[k].ring()), B_, true, cuts_of(elements_));
       bytes += bytes_of(transports_[k]);
       if (static_cast<double>(bytes) > max_memory)
         throw core::InputError("bounds", core::format("of %td elements they need more than %s: --max-memory, or larger "
@@ -117,7 +124,7 @@ class Enclosure::Iteration {
     double before = infinity;
     for (int pass = 0; pass < most; ++pass) {
       run.throw_if_stopped("bounds");
-      slack_ = 1e-11 * B_.cwiseAbs().maxCoeff() + 1e-6 * largest_error();
+      slack_ = 1e-11 * B_.largest() + 1e-6 * largest_error();
       ManyBounds next = g_;
       run.threads.for_blocks(elements_, 1, [&](Index element, Index) { improve(element, next); });
       g_ = std::move(next);
@@ -134,33 +141,50 @@ class Enclosure::Iteration {
     for (Index i = 0; i < elements_; ++i) {
       irradiance.push_back(interval({H_.lower.row(i), H_.upper.row(i)}));
       mean_irradiance.push_back(interval({mean_H_.lower.row(i), mean_H_.upper.row(i)}));
+      error.push_back(interval({e_.lower.row(i), e_.upper.row(i)}));
       radiosity.push_back(interval({exitance_.row(i) + reflectance_.row(i).cwiseProduct(H_.lower.row(i)),
                                     exitance_.row(i) + reflectance_.row(i).cwiseProduct(H_.upper.row(i))}));
     }
   }
   Interval irradiance_at(const measure::PointIrradiance& at) const {
-    std::vector<double> F(patches_.size()), error(patches_.size());
-    factors_(at, F, error);
+    const Index functions = factors_.functions();
+    std::vector<double> F(patches_.size() * static_cast<std::size_t>(functions)), rounding(patches_.size());
+    factors_(at, F, rounding);
     Bounds H = Bounds::zero(channels_);
     for (Index j = 0; j < elements_; ++j) {
       const auto k = static_cast<std::size_t>(j);
-      const Row sent = F[k] * B_.row(j), doubt = error[k] * B_.row(j).cwiseAbs();
+      const ColumnMatrix B = coefficients(j, functions);
+      const Row sent = Eigen::Map<const Row>(&F[k * static_cast<std::size_t>(functions)], functions) * B,
+                doubt = rounding[k] * (field_ ? field_->bases[k].largest() : 1.0) * B.cwiseAbs().colwise().sum();
       H.lower += sent - doubt;
       H.upper += sent + doubt;
     }
     const CellTransport transport =
-        transport_over(around_, around_.cell_at(at.position, at.normal), all_B_, around_.within(at.position), 0);
+        transport_over(around_, around_.cell_at(at.position, at.normal), B_, around_.within(at.position), 0);
     H = H + with_slack(transported(transport).front());
     H.lower = H.lower.cwiseMax(0.0);
     return interval(H);
   }
 
-  std::vector<Interval> irradiance, mean_irradiance, radiosity;
+  std::vector<Interval> irradiance, mean_irradiance, radiosity, error;
 
  private:
-  Bounds residual(Index element, const Bounds& transported) const {
-    const Row rho = reflectance_.row(element), others = exitance_.row(element) - B_.row(element);
-    return {others + rho.cwiseProduct(transported.lower), others + rho.cwiseProduct(transported.upper)};
+  /// B_h on an element by its constant, or by that and its linear functions.
+  ColumnMatrix coefficients(Index element, Index functions) const {
+    return functions > 1 ? ColumnMatrix(field_->radiosity.middleRows(element * field_->functions, functions))
+                         : ColumnMatrix(constants_.row(element));
+  }
+
+  /// r over a part of an element about whose centre T B_h is a polynomial.
+  Bounds residual(Index element, const Cell& part, SmoothSum TB) const {
+    TB.scale(reflectance_.row(element));
+    TB.value += exitance_.row(element) - B_.at(element, part.centre);
+    TB.derivatives.topRows<2>() -= B_.gradient(element, part);
+    return with_slack(TB.everywhere(part));
+  }
+  Bounds mean_residual(Index element, const Cell& part, const Bounds& mean_TB) const {
+    const Row rho = reflectance_.row(element), others = exitance_.row(element) - B_.at(element, part.centre);
+    return with_slack({others + rho.cwiseProduct(mean_TB.lower), others + rho.cwiseProduct(mean_TB.upper)});
   }
   Bounds with_slack(const Bounds& b) const { return {b.lower.array() - slack_, b.upper.array() + slack_}; }
 
@@ -179,21 +203,21 @@ class Enclosure::Iteration {
 
   void find_residuals(Index element, int node, const Cell& cell) {
     Bounds all = Bounds::none(channels_), mean = Bounds::zero(channels_);
-    std::vector<std::pair<double, Bounds>> parts;  // share, T B
+    std::vector<std::pair<double, Bounds>> parts;  // share, r
     double shares = 0;
     const CellTransport& transport = transports_[static_cast<std::size_t>(element)];
     for (std::size_t l = 0; l < transport.leaves.size(); ++l) {
       const Leaf& leaf = transport.leaves[l];
       const Cell& of_leaf = transport.cell_of(leaf);
       if (holds(cell, of_leaf)) {
-        parts.emplace_back(of_leaf.area / cell.area, leaf.everywhere);
+        parts.emplace_back(of_leaf.area / cell.area, residual(element, of_leaf, leaf.polynomial));
         mean.lower += parts.back().first * leaf.mean.lower;
         mean.upper += parts.back().first * leaf.mean.upper;
       } else if (holds(of_leaf, cell)) {
         SmoothSum polynomial = leaf.polynomial;
         polynomial.move(of_leaf.local(cell.centre));
-        parts.emplace_back(1.0, polynomial.everywhere(cell));
         mean = polynomial.mean(cell);
+        parts.emplace_back(1.0, residual(element, cell, std::move(polynomial)));
       } else {
         continue;
       }
@@ -203,15 +227,12 @@ class Enclosure::Iteration {
     }
     if (std::abs(shares - 1) > 1e-9) throw core::PreconditionError("enclose: leaves that do not cover their element");
     const Index row = element * QuarterTree::nodes + node;
-    const Bounds r = residual(element, with_slack(all)), mean_r = residual(element, with_slack(mean));
-    r_.everywhere.narrow(row, r);
+    const Bounds mean_r = mean_residual(element, cell, mean);
+    r_.everywhere.narrow(row, all);
     r_.mean.narrow(row, mean_r);
     Row deviation = Row::Zero(channels_);
-    for (const auto& [share, TB] : parts) {
-      const Bounds of_part = residual(element, with_slack(TB));
-      deviation += share * (of_part.upper - mean_r.lower).cwiseMax(mean_r.upper - of_part.lower);
-    }
-    r_.deviation.row(row) = deviation.cwiseMin(0.5 * (r.upper - r.lower));
+    for (const auto& [share, r] : parts) deviation += share * (r.upper - mean_r.lower).cwiseMax(mean_r.upper - r.lower);
+    r_.deviation.row(row) = deviation.cwiseMin(0.5 * (all.upper - all.lower));
     if (!QuarterTree::has(QuarterTree::child(node, 0))) return;
     const auto rings = scene::quarters_of(cell.ring);
     for (int k = 0; k < 4; ++k)
@@ -254,16 +275,20 @@ class Enclosure::Iteration {
     std::vector<Bounds> of_nodes(QuarterTree::nodes, Bounds::none(channels_));
     for (const Cover& cover : covers_[static_cast<std::size_t>(element)])
       of_nodes[static_cast<std::size_t>(cover.node)].widen(of_leaves[cover.leaf]);
-    Bounds H = Bounds::none(channels_), mean_H = Bounds::zero(channels_);
+    Bounds H = Bounds::none(channels_), mean_H = Bounds::zero(channels_), e = Bounds::none(channels_);
+    const Row rho = reflectance_.row(element);
     for (std::size_t l = 0; l < of_leaves.size(); ++l) {
       const Leaf& leaf = transport.leaves[l];
       const Bounds mean_of_leaf = leaf.mean + of_leaves[l];
       H.widen(leaf.everywhere + of_leaves[l]);
+      e.widen(residual(element, transport.cell_of(leaf), leaf.polynomial) +
+              Bounds{rho.cwiseProduct(of_leaves[l].lower), rho.cwiseProduct(of_leaves[l].upper)});
       mean_H.lower += leaf.share * mean_of_leaf.lower;
       mean_H.upper += leaf.share * mean_of_leaf.upper;
     }
     H_.narrow(element, with_slack(H));
     mean_H_.narrow(element, with_slack(mean_H));
+    e_.narrow(element, with_slack(e));
     for (Index node = 0; node < QuarterTree::nodes; ++node)
       next.narrow(element * QuarterTree::nodes + node, of_nodes[static_cast<std::size_t>(node)]);
   }
@@ -341,13 +366,15 @@ class Enclosure::Iteration {
 
   std::span<const scene::SurfacePatch> patches_;
   Surroundings around_;
+  const PolynomialField* field_;
   PointViewFactors factors_;
-  ColumnMatrix B_, exitance_, reflectance_;
+  LinearField B_;
+  ColumnMatrix exitance_, reflectance_;
   Index elements_, channels_;
-  ColumnMatrix all_B_;  ///< with the black ones' 0
   double slack_;
   std::vector<CellTransport> transports_;
-  ManyBounds H_, mean_H_;  ///< of elements
+  ColumnMatrix constants_;
+  ManyBounds H_, mean_H_, e_;  ///< of elements
   Residuals r_;
   ManyBounds g_;  ///< T e on nodes
   std::vector<std::vector<Cover>> covers_;
@@ -365,6 +392,7 @@ Enclosure::Enclosure(Enclosure&&) noexcept = default;
 std::span<const Interval> Enclosure::irradiance() const { return of_->irradiance; }
 std::span<const Interval> Enclosure::mean_irradiance() const { return of_->mean_irradiance; }
 std::span<const Interval> Enclosure::radiosity() const { return of_->radiosity; }
+std::span<const Interval> Enclosure::error() const { return of_->error; }
 Interval Enclosure::irradiance_at(const measure::PointIrradiance& at) const { return of_->irradiance_at(at); }
 
 }  // namespace interflect::fem

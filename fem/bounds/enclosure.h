@@ -11,7 +11,8 @@
 namespace interflect::fem {
 
 /// Two-sided bounds of the exact solution, point by point, that are proved and not estimated: of B = E + rho T B about
-/// the constants B_h that a solution has on its elements, however good or bad they are (of polynomials, their means).
+/// what a solution has on its elements, however good or bad that is: its constants, or the linear parts B_h of its
+/// polynomials.
 ///
 ///   e = B - B_h,   e = r + rho T e,   r = E + rho T B_h - B_h,   T >= 0
 ///
@@ -27,7 +28,8 @@ namespace interflect::fem {
 /// place sees whole, int k r = F m + (<= across d): since the means of a residual are small, as Galerkin's are, or cancel
 /// among quarters, little is left.  Of other parts F is known, and r is between its own bounds there.
 ///
-/// Widths are O(h) where the solution is smooth: about what B varies by over an element, since B_h is constant there.
+/// Widths of e are O(h) about constants where the solution is smooth, since B varies by as much over an element, and
+/// O(h²) about linear functions; those of H anywhere in an element are O(h) in any case.
 /// They hold past whatever hides; what may be hidden in part is cut into smaller parts, and counts as anything from
 /// nothing to all of it.  Rounding alone is not proved: 1e-11 of the largest |B_h| and 1e-6 of the largest |T e| are
 /// added for it.  A scene counts as closed if no ray that leaves an element is lost, or no row sum lacks 1e-4.
@@ -45,6 +47,8 @@ class Enclosure {
   std::span<const Interval> irradiance() const;
   std::span<const Interval> mean_irradiance() const;
   std::span<const Interval> radiosity() const;
+  /// Of B - B_h anywhere in an element.
+  std::span<const Interval> error() const;
   /// Of H at a point: T B_h to rounding (point_view_factors.h), and T e.  From any thread.
   Interval irradiance_at(const measure::PointIrradiance& at) const;
 

@@ -36,7 +36,7 @@ TEST(CellView, holds_what_is_seen_of_every_element) {
       const scene::SurfacePatch& patch = room.patches[i];
       const Cell cell = around.cell(patch.ring());
       CellView view(around, cell);
-      if (finer) view.refine([](Index) { return 1.0; }, .01, 200);
+      if (finer) view.refine([](const PartSeen&) { return 1.0; }, .01, 200);
       std::vector<double> least(F.size()), most(F.size());
       double all_least = 0, all_most = 0;
       for (const auto parts : {view.far(), view.near()})
@@ -68,7 +68,7 @@ TEST(CellView, knows_more_of_smaller_parts) {
   double before = 1e9;
   for (const std::size_t cuts : {0u, 10u, 100u, 1000u}) {
     CellView view(around, cell);
-    view.refine([](Index) { return 1.0; }, 0, cuts);
+    view.refine([](const PartSeen&) { return 1.0; }, 0, cuts);
     double doubt = 0;
     for (const PartSeen& part : view.near()) doubt += part.factor.most - part.factor.least;
     EXPECT_LE(doubt, before * 1.02) << cuts;  // parts that touch the cell have no less than all of them had
