@@ -151,6 +151,25 @@ void add_compare_form_factors(CLI::App& app, Command& chosen) {
       ->capture_default_str();
 }
 
+void add_solvers(CLI::App& app, Command& chosen) {
+  add_command<SolversOptions>(app, "solvers", "The linear solvers, a line each", "interflect solvers", solvers,
+                              std::make_shared<SolversOptions>(), chosen);
+}
+
+void add_compare_solvers(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<CompareSolversOptions>();
+  CLI::App* command = add_command<CompareSolversOptions>(
+      app, "compare-solvers", "Several linear solvers on one scene: error against work and time",
+      core::format("interflect compare-solvers %s --solvers jacobi conjugate-gradients progressive -o out/solvers",
+                   example_scene),
+      compare_solvers, options, chosen);
+  add_scene(*command, options->scene);
+  add_folder(*command, options->out, "the table and the plots");
+  command->add_option("--solvers", options->solvers, "Which ones; default: all")
+      ->check(CLI::IsMember(solvers::solver_names()));
+  add_equations(*command, options->settings);
+}
+
 void add_exchange(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ExchangeOptions>();
   options->settings.form_factors = "analytic";
@@ -230,6 +249,8 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_trace(app, command);
   add_view_factors(app, command);
   add_compare_form_factors(app, command);
+  add_solvers(app, command);
+  add_compare_solvers(app, command);
   add_exchange(app, command);
   add_info(app, command);
   add_check(app, command);

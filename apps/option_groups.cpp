@@ -5,6 +5,7 @@
 
 #include "apps/option_validators.h"
 #include "core/format.h"
+#include "core/sample_sequence.h"
 #include "fem/closure.h"
 
 namespace interflect::apps {
@@ -54,22 +55,23 @@ void add_effort(CLI::App& command, const EffortOptions& options, const std::stri
   });
 }
 
-/// The polynomials' degree, and what elements are made for.  Polynomials are by analytic form factors, and goals by
-/// polynomials, where nothing else is asked for.
+/// The polynomials' degree; by analytic form factors, where no others are asked for.
 /// @param method  that of form factors
-/// @return  the option of the order
-const CLI::Option* add_order_and_goal(CLI::App& command, SolveOptions& options, const CLI::Option* method) {
+CLI::Option* add_order(CLI::App& command, fem::RadiositySettings& s, const CLI::Option* method) {
+  return command
+      .add_option_function<int>(
+          "--order",
+          [&s, method](int order) {
+            s.order = order;
+            if (order > 0 && method->empty()) s.form_factors = "analytic";
+          },
+          "Degree of the polynomials on an element; from 1 on by analytic or gauss-lambert")
+      ->check(CLI::Range(0, 3));
+}
+
+/// What elements are made for: by polynomials, where no order is asked for.
+void add_goal(CLI::App& command, SolveOptions& options, const CLI::Option* method, const CLI::Option* order_given) {
   fem::RadiositySettings& s = options.settings;
-  CLI::Option* order_given = command
-                                 .add_option_function<int>(
-                                     "--order",
-                                     [&s, method](int order) {
-                                       s.order = order;
-                                       if (order > 0 && method->empty()) s.form_factors = "analytic";
-                                     },
-                                     "Degree of the polynomials on an element; from 1 on by analytic or gauss-lambert")
-                                 ->check(CLI::Range(0, 3))
-                                 ->default_str("0; 1 with --goal or a linear --projection, 2 with --target-error");
   const auto polynomials = [&s, method, order_given](int order) {
     if (order_given->empty()) s.order = std::max(s.order, order);
     if (method->empty()) s.form_factors = "analytic";
@@ -90,7 +92,6 @@ const CLI::Option* add_order_and_goal(CLI::App& command, SolveOptions& options, 
         polynomials(1);
       },
       "Whose error counts: a sensor, a surface, or camera:NAME; default: all sensors");
-  return order_given;
 }
 
 /// Whose functions are linear unless --order says otherwise, and constants at centroids; by analytic form factors.
@@ -110,13 +111,45 @@ void add_projection(CLI::App& command, fem::RadiositySettings& s, const CLI::Opt
       ->default_str("galerkin");
 }
 
-void add_solver(CLI::App& command, fem::RadiositySettings& s) {
-  command.add_option("--solver", s.solver, "Linear solver")
-      ->check(CLI::IsMember(solvers::solver_names()))
+void add_max_memory(CLI::App& command, double& bytes) {
+  command.add_option("--max-memory", bytes, "Refuse what needs more, such as 4GB")
+      ->transform(memory())
+      ->default_str(core::format_bytes(bytes));
+}
+
+void add_drop_below(CLI::App& command, double& drop_below) {
+  command
+      .add_option("--drop-below", drop_below,
+                  "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
+      ->check(within(0.0, 1.0))
       ->capture_default_str();
+}
+
+/// When solvers stop, and what some may be told.
+void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
   command.add_option("--solver-tolerance", s.stopping.tolerance, "Relative residual at which it stops")
       ->check(within(1e-15, 0.1))
       ->capture_default_str();
+  command
+      .add_option("--unshot", s.stopping.unshot,
+                  "Unshot light, over all that is emitted, at which southwell and progressive stop")
+      ->check(within(0.0, 1.0))
+      ->capture_default_str();
+  command.add_option("--relaxation", s.solver_settings.relaxation, "Of over-relaxation: what of a step is gone")
+      ->check(within(1e-3, 1.999))
+      ->capture_default_str();
+  command
+      .add_option("--overshoot", s.solver_settings.overshoot,
+                  "Of progressive: the share of the ambient light that is shot ahead")
+      ->check(within(0.0, 1.0))
+      ->capture_default_str();
+}
+
+void add_solver(CLI::App& command, fem::RadiositySettings& s) {
+  command.add_option("--solver", s.solver, "Linear solver; interflect solvers tells of each")
+      ->check(CLI::IsMember(solvers::solver_names(false)))
+      ->capture_default_str();
+  add_solver_settings(command, s);
 }
 
 }  // namespace
@@ -128,6 +161,8 @@ void add_common(CLI::App& app, CommonOptions& common) {
   app.add_option("--threads", common.threads, "Threads to use (0: all); results do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  app.add_option("--max-time", common.max_time, "Stop after 90s, 15min or 2h as by Ctrl-C: what there is is kept")
+      ->transform(duration());
   app.add_flag("--json", common.json, "Print the result as one JSON object");
   app.add_flag("-q,--quiet", common.quiet, "No progress, and no messages but errors and shortfalls");
   app.add_flag("-v,--verbose", common.verbose, "Say more");
@@ -215,11 +250,12 @@ void add_effort(CLI::App& command, ViewFactorOptions& o) {
 void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
   fem::RadiositySettings& s = options.settings;
   add_element_size(command, s.element_size, "for about 2 500 elements, more where small surfaces each need some");
-  command.add_option("--max-memory", s.max_memory, "Refuse what needs more, such as 4GB")
-      ->transform(memory())
-      ->default_str(core::format_bytes(s.max_memory));
+  add_max_memory(command, s.max_memory);
   const CLI::Option* method = add_form_factors(command, s.form_factors);
-  add_projection(command, s, method, add_order_and_goal(command, options, method));
+  CLI::Option* order = add_order(command, s, method);
+  order->default_str("0; 1 with --goal or a linear --projection, 2 with --target-error");
+  add_goal(command, options, method, order);
+  add_projection(command, s, method, order);
   command.add_option(
       "--factors", options.factors,
       "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
@@ -227,13 +263,25 @@ void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
   add_solver(command, s);
   add_intersector(command, s.intersector, "Ray caster; brute is slow, double precision, for checking");
   add_closure(command, s.closure);
-  command
-      .add_option("--drop-below", s.drop_below,
-                  "Save memory: leave out pairs with F_ij and F_ji below it, and count them as error")
-      ->check(within(0.0, 1.0))
-      ->capture_default_str();
+  add_drop_below(command, s.drop_below);
   add_effort(command, s);
   add_forecast(command, options.forecast_only, out);
+}
+
+void add_equations(CLI::App& command, fem::RadiositySettings& s) {
+  add_element_size(command, s.element_size, "that of solve");
+  add_max_memory(command, s.max_memory);
+  const CLI::Option* method = add_form_factors(command, s.form_factors);
+  add_projection(command, s, method, add_order(command, s, method)->default_str("0; 1 with a linear --projection"));
+  add_quadrature_tolerance(command, s.quadrature_tolerance, "an unoccluded form factor");
+  add_drop_below(command, s.drop_below);
+  add_solver_settings(command, s);
+  command.add_option("--noise", s.stopping.noise, "Relative standard error at which those stop that sample")
+      ->check(within(1e-6, 0.5))
+      ->capture_default_str();
+  command.add_option("--sequence", s.solver_settings.sequence, "Of numbers that those sample by")
+      ->check(CLI::IsMember(core::sequence_names()))
+      ->capture_default_str();
 }
 
 }  // namespace interflect::apps

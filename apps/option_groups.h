@@ -41,4 +41,7 @@ void add_effort(CLI::App& command, ViewFactorOptions& options);
 /// @param out  where the results go
 void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out);
 
+/// Elements and form factors, and when a solver stops: all that equations are made by, but for what they are for.
+void add_equations(CLI::App& command, fem::RadiositySettings& settings);
+
 }  // namespace interflect::apps

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -28,6 +29,19 @@ std::optional<Quantity> quantity_of(const std::string& text) {
   }
 }
 
+/// A positive number of the first unit in place of the text.
+std::string in_units(std::string& text, std::initializer_list<std::pair<const char*, double>> units,
+                     const std::string& expected) {
+  auto quantity = quantity_of(text);
+  if (quantity) quantity->unit.erase(0, quantity->unit.find_first_not_of(' '));
+  for (const auto& [name, factor] : units)
+    if (quantity && quantity->unit == name && quantity->value > 0 && std::isfinite(quantity->value)) {
+      text = core::format("%.17g", quantity->value * factor);
+      return {};
+    }
+  return "'" + text + "' is not " + expected;
+}
+
 }  // namespace
 
 std::string outside(const std::string& text, double low, double high) {
@@ -46,14 +60,11 @@ std::string to_count(std::string& text, double most) {
 }
 
 std::string to_bytes(std::string& text) {
-  auto size = quantity_of(text);
-  if (size) size->unit.erase(0, size->unit.find_first_not_of(' '));
-  for (const auto& [name, factor] : {std::pair{"", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}})
-    if (size && size->unit == name && size->value > 0) {
-      text = core::format("%.17g", size->value * factor);
-      return {};
-    }
-  return "'" + text + "' is not a size such as 4GB";
+  return in_units(text, {{"", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}}, "a size such as 4GB");
+}
+
+std::string to_seconds(std::string& text) {
+  return in_units(text, {{"", 1.0}, {"s", 1.0}, {"min", 60}, {"h", 3600}}, "a time such as 90s, 15min or 2h");
 }
 
 std::string no_length(const std::string& text) {

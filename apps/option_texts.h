@@ -14,6 +14,9 @@ std::string to_count(std::string& text, double most);
 /// Bytes from "4GB", "512 MB", "1e9", powers of ten as on a label, in place of the text.
 std::string to_bytes(std::string& text);
 
+/// Seconds from "90", "90s", "15min", "2h", in place of the text.
+std::string to_seconds(std::string& text);
+
 /// A length in metres above 0.
 std::string no_length(const std::string& text);
 

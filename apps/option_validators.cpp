@@ -14,6 +14,7 @@ CLI::Validator count(double most) {
   return {[=](std::string& text) { return to_count(text, most); }, core::format("up to %g", most)};
 }
 CLI::Validator memory() { return {to_bytes, "SIZE"}; }
+CLI::Validator duration() { return {to_seconds, "TIME"}; }
 CLI::Validator length() { return {no_length, "METRES"}; }
 CLI::Validator fraction() { return {to_fraction, "PART"}; }
 CLI::Validator seed() { return {no_seed, "NUMBER"}; }

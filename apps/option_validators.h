@@ -10,6 +10,7 @@ namespace interflect::apps {
 CLI::Validator within(double low, double high);
 CLI::Validator count(double most);
 CLI::Validator memory();
+CLI::Validator duration();
 CLI::Validator length();
 CLI::Validator fraction();
 CLI::Validator seed();

@@ -16,7 +16,8 @@ struct CommonOptions {
   unsigned threads = 0;  ///< 0: all
   bool quiet = false;
   bool verbose = false;
-  bool json = false;  ///< results on standard output as one JSON object
+  double max_time = 0;  ///< [s] after which it stops as by Ctrl-C; 0: none
+  bool json = false;    ///< results on standard output as one JSON object
   std::string command_line;
 };
 
@@ -79,6 +80,14 @@ struct CompareFormFactorsOptions {
   std::filesystem::path scene, out;
   double element_size = 0;  ///< 0: as a solve has it
   double tolerance = 1e-4;  ///< of the reference's rows
+};
+
+struct SolversOptions {};
+
+struct CompareSolversOptions {
+  std::filesystem::path scene, out;
+  fem::RadiositySettings settings;
+  std::vector<std::string> solvers;  ///< empty: all
 };
 
 struct ExchangeOptions {

@@ -4,7 +4,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cmath>
+#include <ctime>
 #include <thread>
 
 #include "core/log.h"
@@ -33,10 +37,11 @@ void block_watched_signals() {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-/// A thread that waits for the signals: no code runs inside a signal handler.
+/// A thread that waits for the signals, and for the end of a time: no code runs inside a signal handler.
 class Session::SignalWatch {
  public:
-  explicit SignalWatch(std::stop_source& stop) : thread_([this, &stop] { watch(stop); }) {}
+  /// @param seconds  0: for ever
+  SignalWatch(std::stop_source& stop, double seconds) : thread_([this, &stop, seconds] { watch(stop, seconds); }) {}
   ~SignalWatch() {
     done_ = true;
     pthread_kill(thread_.native_handle(),
@@ -45,11 +50,28 @@ class Session::SignalWatch {
   }
 
  private:
-  void watch(std::stop_source& stop) {
+  void watch(std::stop_source& stop, double seconds) {
     const sigset_t set = watched_signals();
+    if (seconds > 0) {
+      const bool signalled = came_within(seconds, set);
+      if (done_) return;
+      stop.request_stop();
+      core::log::warning(signalled ? "stopping; once more to end at once" : "--max-time is over: stopping");
+    }
     for (int signal = 0; sigwait(&set, &signal) == 0 && !done_;) {
       if (!stop.request_stop()) _exit(exit_on_second_interrupt);
       core::log::warning("stopping; once more to end at once");
+    }
+  }
+  /// Whether a signal came in time.
+  static bool came_within(double seconds, const sigset_t& set) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (;;) {
+      const double left = std::chrono::duration<double>(end - std::chrono::steady_clock::now()).count();
+      if (!(left > 0)) return false;
+      const double whole = std::min(std::floor(left), 1e9);
+      const timespec wait{static_cast<time_t>(whole), static_cast<long>(1e9 * std::min(left - whole, 0.999))};
+      if (sigtimedwait(&set, nullptr, &wait) > 0) return true;
     }
   }
 
@@ -61,7 +83,7 @@ Session::Session(const CommonOptions& options)
     : threads_(options.threads),
       progress_(style(options)),
       run_{options.seed, threads_, progress_, stop_.get_token()},
-      watch_(std::make_unique<SignalWatch>(stop_)) {}
+      watch_(std::make_unique<SignalWatch>(stop_, options.max_time)) {}
 
 Session::~Session() = default;
 

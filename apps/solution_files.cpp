@@ -70,9 +70,9 @@ std::vector<results::CellField> fields_of(const SolvedScene& solved) {
 results::Record solver_record(const RadiositySolution& solution) {
   results::Record record;
   record.add("stopped", solvers::describe(solution.solver.why))
-      .add("iterations", solution.solver.iterations)
+      .add("iterations", solution.solver.iterations())
       .add("residual", solution.solver.residual())
-      .add("residual_history", solution.solver.residual_history);
+      .add("residual_history", solution.solver.residuals());
   return record;
 }
 
@@ -258,7 +258,7 @@ std::string solution_text(const SolvedScene& solved) {
   if (solved.bounds) text += bounds_text(solved, *solved.bounds);
   if (solved.residual) text += residual_text(solved, *solved.residual);
   text += core::format("solver      %s after %d iterations, residual %.1e\n", solvers::describe(s.solver.why).c_str(),
-                       s.solver.iterations, s.solver.residual());
+                       s.solver.iterations(), s.solver.residual());
   text += "time        ";
   for (const fem::StageCost& stage : s.stages)
     text += core::format("%s %s  ", stage.stage.c_str(), core::format_duration(stage.seconds).c_str());

@@ -38,7 +38,7 @@ void print(const scene::Scene& scene, const fem::RadiositySolution& s, double se
               assembly / pairs * 1e9, double(s.pairs.facing_away), double(s.pairs.clear), double(s.pairs.sampled),
               double(s.pairs.rays));
   std::printf("closed: %s; row sums %.6f .. %.6f .. %.6f; solver sweeps %d\n", s.closed ? "yes" : "no", s.rows.lowest,
-              s.rows.mean, s.rows.highest, s.solver.iterations);
+              s.rows.mean, s.rows.highest, s.solver.iterations());
   std::printf("mean H %.2f; estimated error %.2f %%, noise %.2f %% (L2)\n", error.mean_irradiance,
               100 * error.relative_l2, 100 * error.relative_noise_l2);
   std::printf(

@@ -17,13 +17,14 @@
 #include "core/run.h"
 #include "fem/operator/dense_symmetric.h"
 #include "fem/operator/sparse_symmetric.h"
+#include "solvers/conjugate_gradients.h"
 #include "solvers/gauss_seidel.h"
 
 using namespace interflect;
 
 namespace {
 
-constexpr int rounds = 25;
+constexpr int rounds = 25, krylov_iterations = 4;
 constexpr Index columns = 3;
 constexpr std::size_t large_page = std::size_t{2} << 20;
 
@@ -71,7 +72,7 @@ struct Problem {
 
 void compare(Problem& problem, unsigned threads, double& sink) {
   core::LocalRun run(1, threads);
-  std::vector<double> read, apply, sweep;
+  std::vector<double> read, apply, sweep, krylov;
   const solvers::Reflection R(solvers::ColumnMatrix::Constant(problem.K.size(), columns, 0.5));
   const solvers::System system{problem.K, R, problem.b};
   for (int round = 0; round < rounds; ++round) {
@@ -79,11 +80,16 @@ void compare(Problem& problem, unsigned threads, double& sink) {
     apply.push_back(seconds([&] { problem.K.apply(problem.b, problem.out, run); }));
     solvers::SolverState state;
     sweep.push_back(seconds([&] { solvers::GaussSeidel().advance(system, state, {0.0, 1}, run); }));
+    solvers::SolverState of_krylov;
+    const solvers::SolverReport report =
+        solvers::ConjugateGradients().advance(system, of_krylov, {0.0, krylov_iterations}, run);
+    krylov.push_back((report.history.back().seconds - report.history.front().seconds) / (krylov_iterations - 1));
     sink += problem.out.sum();
   }
   const double gigabytes = static_cast<double>(problem.count) * 8e-9;
-  std::printf("%7td %7u %11.2f %11.2f %9.0f %% %17.2f\n", problem.K.size(), threads, gigabytes / fastest(read),
-              gigabytes / fastest(apply), 100 * fastest(read) / fastest(apply), fastest(sweep) / fastest(read));
+  std::printf("%7td %7u %11.2f %11.2f %9.0f %% %18.2f %17.2f\n", problem.K.size(), threads, gigabytes / fastest(read),
+              gigabytes / fastest(apply), 100 * fastest(read) / fastest(apply), fastest(krylov) / fastest(read),
+              fastest(sweep) / fastest(read));
 }
 
 /// Eigen's product of the same matrix, all of its n² entries stored.
@@ -136,7 +142,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) sizes.push_back(std::atol(argv[i]));
   if (sizes.empty()) sizes = {5000, 10000};
   double sink = 0;
-  std::printf("      n threads   read GB/s  apply GB/s  apply / read  sweep / read (times)\n");
+  std::printf("      n threads   read GB/s  apply GB/s  apply / read  CG iteration / read  GS sweep / read (times)\n");
   for (Index n : sizes) {
     Problem problem(n);
     for (unsigned threads : {1u, 2u}) compare(problem, threads, sink);

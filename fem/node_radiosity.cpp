@@ -2,23 +2,11 @@
 
 #include "core/error.h"
 #include "fem/collocation.h"
-#include "fem/columns.h"
 #include "fem/continuous.h"
+#include "fem/element_materials.h"
 
 namespace interflect::fem {
-namespace {
-
 using solvers::ColumnMatrix;
-
-/// Values of elements at their nodes.
-ColumnMatrix at_nodes(const NodeSet& nodes, std::span<const Spectrum> of_elements, int channels) {
-  const ColumnMatrix values = to_columns(of_elements, channels);
-  ColumnMatrix out(nodes.size(), channels);
-  for (Index k = 0; k < out.rows(); ++k) out.row(k) = values.row(nodes.panel[static_cast<std::size_t>(k)]);
-  return out;
-}
-
-}  // namespace
 
 NodeEquations node_equations(Projection projection, const scene::Scene& scene, const mesh::ElementMesh& mesh, int order,
                              const SymmetricOperator& K, Run& run) {
@@ -36,11 +24,10 @@ NodeEquations node_equations(Projection projection, const scene::Scene& scene, c
 ElementFields solve_at_nodes(const NodeEquations& equations, const RadiositySolution& s,
                              const RadiositySettings& settings, int channels, Run& run) {
   const auto& [nodes, T] = equations;
-  const solvers::Reflection R(at_nodes(nodes, s.reflectance, channels));
-  const ColumnMatrix e = at_nodes(nodes, s.exitance, channels);
-  solvers::SolverState state{e, 0};
-  solvers::SolverReport report =
-      solvers::make_solver(settings.solver)->advance({T, R, e}, state, settings.stopping, run);
+  const auto [e, reflectance] = at_nodes(s.exitance, s.reflectance, channels, nodes);
+  const solvers::Reflection R(reflectance);
+  solvers::SolverState state{e};
+  solvers::SolverReport report = solver_of(settings)->advance({T, R, e}, state, settings.stopping, run);
   run.throw_if_stopped("solve");
   ColumnMatrix H(e.rows(), e.cols());
   T.apply(state.x, H, run);

@@ -1,6 +1,7 @@
 #include "fem/polynomial_radiosity.h"
 
 #include "fem/columns.h"
+#include "fem/element_materials.h"
 #include "fem/node_radiosity.h"
 #include "fem/space/polynomials.h"
 
@@ -8,18 +9,6 @@ namespace interflect::fem {
 namespace {
 
 using solvers::ColumnMatrix;
-
-/// Values of elements on their functions up to a degree, 0 on all others.
-/// @param degree  of elements
-ColumnMatrix on_functions(std::span<const Spectrum> values, int channels, Index functions,
-                          std::span<const int> degree) {
-  const ColumnMatrix of_elements = to_columns(values, channels);
-  ColumnMatrix out = ColumnMatrix::Zero(of_elements.rows() * functions, channels);
-  for (Index i = 0; i < of_elements.rows(); ++i)
-    for (Index a = 0; a < plane_functions(degree[static_cast<std::size_t>(i)]); ++a)
-      out.row(i * functions + a) = of_elements.row(i);
-  return out;
-}
 
 std::vector<Spectrum> means(const ColumnMatrix& coefficients, Index functions) {
   ColumnMatrix first(coefficients.rows() / functions, coefficients.cols());
@@ -30,11 +19,11 @@ std::vector<Spectrum> means(const ColumnMatrix& coefficients, Index functions) {
 /// With the functions up to a degree of each element alone.
 ElementFields solved(const RadiositySolution& s, const SymmetricOperator& K, std::span<const int> degree,
                      Index functions, const RadiositySettings& settings, int channels, Run& run) {
-  const solvers::Reflection R(on_functions(s.reflectance, channels, functions, degree));
-  const ColumnMatrix e = on_functions(s.exitance, channels, functions, std::vector<int>(degree.size(), 0));
-  solvers::SolverState state{e, 0};
+  const auto [e, reflectance] = on_functions(s.exitance, s.reflectance, channels, degree, functions);
+  const solvers::Reflection R(reflectance);
+  solvers::SolverState state{e};
   ElementFields fields;
-  fields.report = solvers::make_solver(settings.solver)->advance({K, R, e}, state, settings.stopping, run);
+  fields.report = solver_of(settings)->advance({K, R, e}, state, settings.stopping, run);
   run.throw_if_stopped("solve");
   fields.radiosity = std::move(state.x);
   fields.irradiance.resize(e.rows(), e.cols());

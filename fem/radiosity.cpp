@@ -11,6 +11,7 @@
 #include "fem/assembly.h"
 #include "fem/closure.h"
 #include "fem/columns.h"
+#include "fem/element_materials.h"
 #include "fem/energy.h"
 #include "fem/error_estimate.h"
 #include "fem/goal/adaptive_elements.h"
@@ -49,8 +50,8 @@ solvers::ColumnMatrix solve_system(const SymmetricOperator& K, const solvers::Co
                                    const solvers::ColumnMatrix& reflectance, const RadiositySettings& settings,
                                    Run& run, solvers::SolverReport& report) {
   const solvers::Reflection R(reflectance);
-  solvers::SolverState state{exitance, 0};
-  report = solvers::make_solver(settings.solver)->advance({K, R, exitance}, state, settings.stopping, run);
+  solvers::SolverState state{exitance};
+  report = solver_of(settings)->advance({K, R, exitance}, state, settings.stopping, run);
   return std::move(state.x);
 }
 
@@ -77,14 +78,6 @@ RowSums summary_of(std::span<const double> row_sums, std::span<const double> are
   }
   rows.mean /= area;
   return rows;
-}
-
-void set_materials(RadiositySolution& s, const scene::Scene& scene) {
-  for (const auto& patch : s.mesh.patches()) {
-    const scene::Material& material = scene.material(patch.surface);
-    s.exitance.push_back(material.exitance_of(patch.side));
-    s.reflectance.push_back(material.reflectance_of(patch.side));
-  }
 }
 
 /// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
@@ -177,13 +170,16 @@ void require_compatible_projection(const RadiositySettings& settings) {
   if (settings.stored_factors) refuse("view factors of a file");
 }
 
-/// With quads, the order that holds what is bilinear between corners.
+}  // namespace
+
 int order_of_blocks(const RadiositySettings& settings, std::span<const scene::SurfacePatch> patches) {
   const bool any_quad = std::any_of(patches.begin(), patches.end(), [](const auto& p) { return p.corners == 4; });
   return at_corners(settings.projection) && any_quad ? 2 : settings.order;
 }
 
-}  // namespace
+std::unique_ptr<solvers::RadiositySolver> solver_of(const RadiositySettings& settings) {
+  return solvers::make_solver(settings.solver, settings.solver_settings);
+}
 
 void require_compatible(const RadiositySettings& settings) {
   if (settings.adaptive && (settings.order < 1 || settings.order > 2))
@@ -254,7 +250,9 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   const double size = settings.adaptive ? elements.mesh.longest_edge() : element_size_of(scene, settings);
   RadiositySolution s(std::move(elements.mesh), size);
   s.adaptation = std::move(elements.adaptation);
-  set_materials(s, scene);
+  ElementMaterials materials = materials_of(scene, s.mesh.patches());
+  s.exitance = std::move(materials.exitance);
+  s.reflectance = std::move(materials.reflectance);
   const SymmetricOperator& K = *from.K;
   set_operator_record(s, from);
   const std::vector<double> row_sum_before = K.row_sums(run);

@@ -21,7 +21,8 @@ struct RadiositySettings {
   std::string form_factors = "gauss-lambert";
   int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic` or `gauss-lambert`
   Projection projection = Projection::galerkin;
-  std::string solver = "gauss-seidel";
+  std::string solver = "automatic";
+  solvers::SolverSettings solver_settings;
   std::string intersector = "embree";
   solvers::StoppingRule stopping;
   double quadrature_tolerance = 1e-3;  ///< relative, of an entry
@@ -47,6 +48,12 @@ double element_size_of(const scene::Scene& scene, const RadiositySettings& setti
 /// The scene cut into elements of that size, each four the quarters of one of twice the size.
 /// @throws core::InputError  where they need more memory than `max_memory`, saying which element size would fit
 mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings);
+
+/// Of the polynomials that K is made for; between the corners of quads one that holds what is bilinear.
+int order_of_blocks(const RadiositySettings& settings, std::span<const scene::SurfacePatch> patches);
+
+/// The solver asked for.  @throws core::InputError  no such name, or settings out of its range
+std::unique_ptr<solvers::RadiositySolver> solver_of(const RadiositySettings& settings);
 
 /// @throws core::InputError  where settings do not go together: what polynomials of order 1 and more cannot have, yet
 void require_compatible(const RadiositySettings& settings);

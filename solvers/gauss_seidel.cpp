@@ -1,7 +1,8 @@
 #include "solvers/gauss_seidel.h"
 
-#include "core/error.h"
 #include "solvers/block_product.h"
+#include "solvers/bounce.h"
+#include "solvers/iterations.h"
 #include "solvers/system_check.h"
 
 namespace interflect::solvers {
@@ -14,35 +15,47 @@ constexpr Index columns_a_task = 2048;
 /// One sweep after the other over all rows.  Unknowns are kept column after column, for contiguous inner loops.
 class Sweeps {
  public:
-  Sweeps(const System& system, const RowAccess& rows, const ColumnMatrix& start, const Run& run)
+  Sweeps(const System& system, const RowAccess& rows, double relaxation, const ColumnMatrix& start, const Run& run)
       : system_(system),
         access_(rows),
+        relaxation_(relaxation),
         run_(run),
         x_(start.transpose()),
         missing_(start.cols(), start.rows()),
+        own_(start.cols(), start.rows()),
         rows_(std::min(block_rows, start.rows()), start.rows()),
         sums_(start.cols(), block_rows),
         change_(start.cols(), block_rows) {}
 
-  void sweep() {
+  void forward() {
     missing_.setZero();
-    for (Index first = 0; first < n(); first += block_rows) {
-      const Index count = std::min(block_rows, n() - first);
-      fetch_and_sum(first, count);
-      for (Index i = 0; i < count; ++i) update(first, i, count);
-      if (system_.K.symmetric()) spread_changes(first, count);
-    }
+    for (Index first = 0; first < n(); first += block_rows) sweep_block(first, true);
+  }
+  void back() {
+    missing_.setZero();
+    for (Index first = (n() - 1) / block_rows * block_rows; first >= 0; first -= block_rows) sweep_block(first, false);
   }
   ColumnMatrix radiosity() const { return x_.transpose(); }
   /// e + R G^-1 K b - b of the symmetric case, see the header.
   ColumnMatrix residual() const {
     const Eigen::Map<const Eigen::VectorXd> G(system_.K.gram().data(), n());
-    return (system_.R.reflectance().array() * missing_.transpose().array()).colwise() / G.array();
+    const ColumnMatrix of_others =
+        (system_.R.reflectance().array() * missing_.transpose().array()).colwise() / G.array();
+    return of_others + own_.transpose();
   }
 
  private:
   Index n() const { return x_.cols(); }
   Index columns() const { return x_.rows(); }
+
+  void sweep_block(Index first, bool ascending) {
+    const Index count = std::min(block_rows, n() - first);
+    fetch_and_sum(first, count);
+    for (Index k = 0; k < count; ++k) update(first, ascending ? k : count - 1 - k, count);
+    if (!system_.K.symmetric()) return;
+    spread_within(first, count, ascending);
+    ascending ? spread(0, first, count) : spread(first + count, n(), count);
+  }
 
   /// Fetches the rows of a block; sums_ = K b over the unknowns outside it.
   void fetch_and_sum(Index first, Index count) {
@@ -65,64 +78,64 @@ class Sweeps {
       for (Index j = 0; j < count; ++j)
         if (j != i) sum += rows_(i, first + j) * x_(c, first + j);
       const double reflected = system_.R.reflectance()(a, c) / system_.K.gram()[static_cast<std::size_t>(a)];
-      const double value = (system_.e(a, c) + reflected * sum) / (1 - reflected * rows_(i, a));
-      change_(c, i) = value - x_(c, a);
-      x_(c, a) = value;
+      const double of_itself = 1 - reflected * rows_(i, a);
+      const double value = (system_.e(a, c) + reflected * sum) / of_itself, step = value - x_(c, a);
+      own_(c, a) = (1 - relaxation_) * of_itself * step;
+      change_(c, i) = relaxation_ * step;
+      x_(c, a) = relaxation_ == 1 ? value : x_(c, a) + change_(c, i);
     }
   }
 
-  /// missing_a += sum_b K_ab change_b for the b of the block and all a < b.
-  void spread_changes(Index first, Index count) {
+  /// missing_a += sum_b K_ab change_b for all b of the block that come after an a of it.
+  void spread_within(Index first, Index count, bool ascending) {
     for (Index c = 0; c < columns(); ++c)
-      for (Index i = 0; i < count; ++i)
-        for (Index j = 0; j < i; ++j) missing_(c, first + j) += rows_(i, first + j) * change_(c, i);
-    run_.threads.for_blocks(first, columns_a_task, [&](Index begin, Index end) {
-      add_transposed_product({rows_.data() + begin, count, end - begin, n()}, {change_.data(), columns(), block_rows},
-                             {missing_.data() + begin, columns(), n()});
+      for (Index i = 0; i < count; ++i) {
+        const Index begin = ascending ? 0 : i + 1, end = ascending ? i : count;
+        for (Index j = begin; j < end; ++j) missing_(c, first + j) += rows_(i, first + j) * change_(c, i);
+      }
+  }
+  /// The same for all a from `begin` on, which come before the block.
+  void spread(Index begin, Index end, Index count) {
+    run_.threads.for_blocks(end - begin, columns_a_task, [&](Index from, Index to) {
+      const Index a = begin + from;
+      add_transposed_product({rows_.data() + a, count, to - from, n()}, {change_.data(), columns(), block_rows},
+                             {missing_.data() + a, columns(), n()});
     });
   }
 
   const System& system_;
   const RowAccess& access_;
+  double relaxation_;
   const Run& run_;
-  ColumnMatrix x_, missing_;    ///< columns x unknowns
-  ColumnMatrix rows_;           ///< of the block at work: block_rows x unknowns
-  ColumnMatrix sums_, change_;  ///< columns x block_rows
+  ColumnMatrix x_, missing_, own_;  ///< columns x unknowns
+  ColumnMatrix rows_;               ///< of the block at work: block_rows x unknowns
+  ColumnMatrix sums_, change_;      ///< columns x block_rows
 };
-
-/// e + R G^-1 K x - x.
-ColumnMatrix residual_of(const System& system, const ColumnMatrix& x, Run& run) {
-  const Eigen::Map<const Eigen::VectorXd> G(system.K.gram().data(), x.rows());
-  ColumnMatrix h(x.rows(), x.cols());
-  system.K.apply(x, h, run);
-  h.array().colwise() /= G.array();
-  ColumnMatrix residual = system.e - x;
-  system.R.add_reflected(h, residual);
-  return residual;
-}
 
 }  // namespace
 
+std::string GaussSeidel::name() const {
+  if (sweep_ == Sweep::there_and_back) return "symmetric-gauss-seidel";
+  return relaxation_ == 1 ? "gauss-seidel" : "over-relaxation";
+}
+
 SolverReport GaussSeidel::advance(const System& system, SolverState& state, const StoppingRule& rule, Run& run) const {
-  const RowAccess* rows = system.K.rows();
-  if (rows == nullptr)
-    throw core::InputError("solver 'gauss-seidel'", "an operator with rows expected; use 'jacobi' here");
-  if (!system.R.diagonal())
-    throw core::InputError("solver 'gauss-seidel'", "reflectance varies inside elements; use 'jacobi' here");
+  const RowAccess& rows = required_rows(system, name());
   require_solvable(system);
   if (!prepare(system, state)) return {.why = SolverReport::Stopped::nothing_to_do};
 
-  Sweeps sweeps(system, *rows, state.x, run);
-  SolverReport report;
+  const auto n = static_cast<double>(state.x.rows());
+  const bool back_too = sweep_ == Sweep::there_and_back;
+  Sweeps sweeps(system, rows, relaxation_, state.x, run);
+  Iterations iterations(state, rule, run);
   for (bool more = true; more;) {
-    sweeps.sweep();
+    sweeps.forward();
+    if (back_too) sweeps.back();
     ColumnMatrix x = sweeps.radiosity();
     const ColumnMatrix residual = system.K.symmetric() ? sweeps.residual() : residual_of(system, x, run);
-    more = go_on(report, relative_size(residual, x), rule, run);
-    state.x.swap(x);  // only now: a solve that fails leaves the last good x for another
-    ++state.step;
+    more = iterations.next(x, {relative_size(residual, x), (back_too ? 2 : 1) * n});
   }
-  return report;
+  return iterations.report();
 }
 
 }  // namespace interflect::solvers

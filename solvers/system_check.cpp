@@ -66,6 +66,22 @@ void require_solvable(const System& system) {
   }
 }
 
+const RowAccess& required_rows(const System& system, const std::string& solver) {
+  const RowAccess* rows = system.K.rows();
+  if (rows == nullptr)
+    throw core::InputError("solver '" + solver + "'", "an operator with rows expected; use 'automatic' here");
+  if (!system.R.diagonal())
+    throw core::InputError("solver '" + solver + "'", "reflectance varies inside elements; use 'automatic' here");
+  return *rows;
+}
+
+void require_walks(const System& system, const std::string& solver) {
+  if (system.walks == nullptr)
+    throw core::InputError("solver '" + solver + "'", "rays between elements of constants expected");
+  if (!system.R.diagonal())
+    throw core::InputError("solver '" + solver + "'", "reflectance varies inside elements; use 'automatic' here");
+}
+
 bool prepare(const System& system, SolverState& state) {
   if (state.x.size() == 0) state.x = system.e;
   if (state.x.rows() != system.e.rows() || state.x.cols() != system.e.cols())
@@ -88,21 +104,6 @@ double relative_size(ConstColumns residual, ConstColumns x) {
     if (r > 0) largest = std::max(largest, size > 0 ? r / size : 1.0);
   }
   return largest;
-}
-
-bool go_on(SolverReport& report, double residual, const StoppingRule& rule, const Run& run) {
-  if (!std::isfinite(residual)) throw core::InputError("solve: the operator holds numbers that are not finite");
-  ++report.iterations;
-  report.residual_history.push_back(residual);
-  if (residual <= rule.tolerance)
-    report.why = SolverReport::Stopped::converged;
-  else if (report.iterations >= rule.max_iterations)
-    report.why = SolverReport::Stopped::iteration_limit;
-  else if (run.stop.stop_requested())
-    report.why = SolverReport::Stopped::asked_to;
-  else
-    return true;
-  return false;
 }
 
 }  // namespace interflect::solvers

@@ -11,6 +11,13 @@ namespace interflect::solvers {
 /// @throws core::PreconditionError  shapes of K, R and e that do not fit
 void require_solvable(const System& system);
 
+/// @throws core::InputError  where the operator has no rows, or reflectance varies inside elements: what solvers that go
+///                           by rows cannot have
+const RowAccess& required_rows(const System& system, const std::string& solver);
+
+/// @throws core::InputError  where the system has no walks of constants, or reflectance varies inside elements
+void require_walks(const System& system, const std::string& solver);
+
 /// Makes `state` a start: x = e where it is empty, and 0 in columns without exitance, whose solution that is.
 /// @return false where every column is such a one: there is nothing to do
 /// @throws core::PreconditionError  where x has another shape than e
@@ -19,9 +26,5 @@ bool prepare(const System& system, SolverState& state);
 /// max over the columns of max_a |residual_a| / max_a |x_a|, what StoppingRule speaks of; 1 for a column
 /// that is still all 0 but should not be, NaN where a residual is.
 double relative_size(ConstColumns residual, ConstColumns x);
-
-/// What follows an iteration: takes down its residual and says whether to go on.
-/// @throws core::InputError  where the residual is not a number: K was not finite
-bool go_on(SolverReport& report, double residual, const StoppingRule& rule, const Run& run);
 
 }  // namespace interflect::solvers

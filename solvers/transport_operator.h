@@ -58,6 +58,8 @@ class Reflection {
   std::span<const Block> blocks() const { return blocks_; }
   bool diagonal() const { return blocks_.empty(); }
   void add_reflected(ConstColumns h, Columns b) const;
+  /// Q >= 0 with Q Q = R.
+  Reflection root() const;
 
  private:
   ColumnMatrix reflectance_;

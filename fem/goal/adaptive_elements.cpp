@@ -9,14 +9,12 @@
 
 #include "core/error.h"
 #include "core/seconds_since.h"
-#include "fem/columns.h"
+#include "fem/element_materials.h"
 #include "fem/space/polynomials.h"
 #include "mesh/uniform.h"
 
 namespace interflect::fem {
 namespace {
-
-using solvers::ColumnMatrix;
 
 constexpr double marked_share = 0.7, missed = 2, cancelling_share = 0.1;
 /// Decay (dual_weighted.h) from which on a degree more is worth its unknowns: the product of both kinds of coefficients
@@ -31,25 +29,6 @@ mesh::ElementMesh first_elements(const scene::Scene& scene, const RadiositySetti
   if (settings.element_size > 0) return mesh::uniform(scene, settings.element_size);
   return mesh::coarse(scene, mesh::edge_for(scene, few));
 }
-
-/// What emits and what reflects, of unknowns: exitance of first functions, reflectance of those up to the degree.
-struct Materials {
-  ColumnMatrix e, R;
-
-  Materials(const scene::Scene& scene, const mesh::ElementMesh& mesh, std::span<const int> degree, Index functions)
-      : e(ColumnMatrix::Zero(mesh.size() * functions, scene.channel_count())), R(e) {
-    for (Index i = 0; i < mesh.size(); ++i) {
-      const auto element = static_cast<std::size_t>(i);
-      const scene::SurfacePatch& patch = mesh.patches()[element];
-      const scene::Material& material = scene.material(patch.surface);
-      const Spectrum exitance = material.exitance_of(patch.side), reflectance = material.reflectance_of(patch.side);
-      for (int c = 0; c < scene.channel_count(); ++c) {
-        e(i * functions, c) = exitance[c];
-        R.col(c).segment(i * functions, plane_functions(degree[element])).setConstant(reflectance[c]);
-      }
-    }
-  }
-};
 
 Index unknowns(std::span<const int> degree) {
   Index sum = 0;
@@ -67,10 +46,12 @@ struct Elements {
 DualWeighted estimate(const scene::Scene& scene, const Elements& elements, const RadiositySettings& settings,
                       const Goal& goal, const raycast::RayCaster& rays, Run& run) {
   const SymmetricOperator& K = *elements.from.blocks;
-  const auto [e, R] = Materials(scene, elements.mesh, elements.degree, plane_functions(settings.order));
-  solvers::SolverState state{e, 0};
+  const ElementMaterials of = materials_of(scene, elements.mesh.patches());
+  const auto [e, R] = on_functions(of.exitance, of.reflectance, scene.channel_count(), elements.degree,
+                                   plane_functions(settings.order));
+  solvers::SolverState state{e};
   const solvers::Reflection reflection(R);
-  const auto solver = solvers::make_solver(settings.solver);
+  const auto solver = solver_of(settings);
   solver->advance({K, reflection, e}, state, settings.stopping, run);
   run.throw_if_stopped("solve");
   return dual_weighted({scene, elements.mesh, settings.order, elements.degree, K, R, e, settings.quadrature_tolerance},

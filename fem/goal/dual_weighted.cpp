@@ -57,7 +57,7 @@ class Estimator {
         if (a == 0) e.row(u).array() += arriving_on(i);
       }
     const solvers::Reflection R(system_.R);
-    solvers::SolverState state{e, 0};
+    solvers::SolverState state{e};
     solver.advance({system_.K, R, e}, state, stopping, run);
     run.throw_if_stopped("importance");
     return std::move(state.x);

@@ -373,5 +373,23 @@ TEST(Trace, estimates_join_with_a_solution_on_names) {
   EXPECT_NEAR(std::stod((*floor)[2]), 1.1026, 0.03);
 }
 
+TEST(Solvers, are_listed_and_compared) {
+  const Outcome list = interflect({"solvers"});
+  EXPECT_EQ(list.status, 0);
+  for (const char* name : {"conjugate-gradients", "southwell", "progressive"})
+    EXPECT_TRUE(contains(list.out, name)) << list.out;
+  EXPECT_EQ(json::parse(interflect({"solvers", "--json"}).out).at("solvers").at(0).at("name"), "automatic");
+
+  const TemporaryFolder folder;
+  const Outcome compared = interflect({"compare-solvers", shipped_scene("cube"), "--element-size", "0.3", "--solvers",
+                                       "conjugate-gradients", "southwell", "shooting-collision", "-o", folder / "out"});
+  EXPECT_EQ(compared.status, 0) << compared.err;
+  EXPECT_TRUE(contains(compared.out, "southwell: converged")) << compared.out;
+  const std::string csv = read_file(folder / "out/solvers.csv");
+  EXPECT_TRUE(contains(csv, "solver,iteration,rows_or_rays,seconds,error,residual_or_noise")) << csv;
+  EXPECT_TRUE(contains(csv, "conjugate-gradients,1,")) << csv;
+  EXPECT_EQ(interflect({"compare-solvers", shipped_scene("cube"), "--solvers", "gauss", "-o", folder / "x"}).status, 2);
+}
+
 }  // namespace
 }  // namespace interflect::test

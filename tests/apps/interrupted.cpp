@@ -31,6 +31,21 @@ TEST(Interrupted, a_picture_is_kept_with_the_samples_so_far) {
   EXPECT_LT(said.at("samples"), 2000);
 }
 
+TEST(Interrupted, time_that_is_over_is_a_stop) {
+  const TemporaryFolder folder;
+  const Outcome trace = interflect({"trace", shipped_scene("cornell_box"), "--spp", "1000000", "--threads", "2",
+                                    "--max-time", "3s", "-o", folder / "c.exr", "--json"});
+  EXPECT_EQ(trace.status, 1) << trace.err;
+  EXPECT_TRUE(contains(trace.err, "--max-time is over")) << trace.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "c.exr"));
+  EXPECT_EQ(nlohmann::json::parse(trace.out).at("stopped"), true);
+  const Outcome in_time = interflect({"info", shipped_scene("cornell_box"), "--max-time", "5min"});
+  EXPECT_EQ(in_time.status, 0) << in_time.err;
+  const Outcome what = interflect({"info", shipped_scene("cornell_box"), "--max-time", "soon"});
+  EXPECT_EQ(what.status, 2);
+  EXPECT_TRUE(contains(what.err, "90s, 15min or 2h")) << what.err;
+}
+
 TEST(Interrupted, estimates_are_written_with_the_samples_so_far) {
   const TemporaryFolder folder;
   const Outcome trace = interflect({"trace", shipped_scene("holodeck"), "--spp", "1", "--threads", "2", "-o",

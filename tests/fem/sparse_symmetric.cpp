@@ -191,7 +191,7 @@ TEST(SparseSymmetric, serves_both_solvers_as_the_dense_one_does) {
   const solvers::Reflection R(solvers::ColumnMatrix::Constant(n, 3, 0.9));
   core::LocalRun run(1, 2);
   const auto K = sparse(pair, 0, run.get());
-  for (const std::string& name : solvers::solver_names()) {
+  for (const std::string& name : solvers::solver_names(false)) {
     solvers::SolverState of_dense, of_sparse;
     EXPECT_TRUE(solvers::make_solver(name)->advance({*pair.K, R, e}, of_dense, {1e-14, 10000}, run).converged())
         << name;

@@ -168,7 +168,8 @@ TEST(FlatlandStrips, collocation_is_an_operator_that_solvers_take) {
   for (Index a = 0; a < e.rows(); ++a) e(a, 0) = strip_exitance(nodes.position[static_cast<std::size_t>(a)]);
   const solvers::Reflection R(solvers::ColumnMatrix::Constant(e.rows(), 1, rho));
   const Eigen::VectorXd expected = solved(nodes, T);
-  for (const std::string& name : solvers::solver_names()) {
+  for (const std::string& name : solvers::solver_names(false)) {
+    if (name == "conjugate-gradients" || name == "southwell" || name == "progressive") continue;  // K is not symmetric
     solvers::SolverState state{e, 0};
     const auto report = solvers::make_solver(name)->advance({T, R, e}, state, {1e-13, 1000}, run);
     EXPECT_TRUE(report.converged()) << name;

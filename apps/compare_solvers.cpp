@@ -1,0 +1,134 @@
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "apps/read_scene.h"
+#include "apps/table.h"
+#include "core/format.h"
+#include "fem/solver_comparison.h"
+#include "results/atomic_file.h"
+#include "results/csv.h"
+#include "results/output_directory.h"
+#include "results/record.h"
+#ifdef INTERFLECT_WITH_VTK
+#include "results/image_file.h"
+#include "visual/plot.h"
+#endif
+
+namespace interflect::apps {
+namespace {
+
+using fem::SolverScore;
+
+std::string csv_of(const std::vector<SolverScore>& scores) {
+  results::Csv csv;
+  for (const char* heading : {"solver", "iteration", "rows_or_rays", "seconds", "error", "residual_or_noise"})
+    csv.text(heading);
+  csv.end_line();
+  for (const SolverScore& score : scores)
+    for (std::size_t k = 0; k < score.history.size(); ++k) {
+      const SolverScore::At& at = score.history[k];
+      csv.text(score.solver).number(static_cast<double>(k + 1)).number(at.rows).number(at.seconds);
+      csv.number(at.error).number(at.residual).end_line();
+    }
+  return csv.str();
+}
+
+/// The first iteration with an error below, if there is one.
+const SolverScore::At* first_below(const SolverScore& score, double error) {
+  for (const SolverScore::At& at : score.history)
+    if (at.error <= error) return &at;
+  return nullptr;
+}
+
+constexpr double milestones[] = {0.1, 1e-2, 1e-6};
+
+std::string table_of(const fem::SolverComparison& comparison) {
+  Table table({"solver", "sweeps to 10 %", "1 %", "1e-6", "seconds to 1e-6", "error", "time s", "stopped"});
+  for (const SolverScore& score : comparison.scores) {
+    std::vector<std::string> row{score.solver};
+    for (const double error : milestones) {
+      const SolverScore::At* at = first_below(score, error);
+      if (score.samples)
+        row.push_back(at ? core::format("%.2g rays", at->rows) : "-");
+      else
+        row.push_back(at ? core::format("%.3g", at->rows / static_cast<double>(comparison.unknowns)) : "-");
+    }
+    const SolverScore::At* last = first_below(score, milestones[2]);
+    row.push_back(last ? core::format("%.3g", last->seconds) : "-");
+    row.push_back(score.history.empty() ? "-" : core::format("%.2g", score.history.back().error));
+    row.push_back(score.history.empty() ? "-" : core::format("%.3g", score.history.back().seconds));
+    row.push_back(score.why);
+    table.add(std::move(row));
+  }
+  return table.text();
+}
+
+results::Record record_of(const fem::SolverComparison& comparison) {
+  results::Record::List list;
+  for (const SolverScore& score : comparison.scores) {
+    results::Record record;
+    record.add("solver", score.solver).add("iterations", static_cast<std::int64_t>(score.history.size()));
+    record.add("rows_or_rays", score.history.empty() ? 0.0 : score.history.back().rows);
+    record.add("seconds", score.history.empty() ? 0.0 : score.history.back().seconds);
+    record.add("error", score.history.empty() ? 0.0 : score.history.back().error);
+    list.push_back(record.add("stopped", score.why));
+  }
+  results::Record record;
+  return record.add("elements", static_cast<std::int64_t>(comparison.elements))
+      .add("unknowns", static_cast<std::int64_t>(comparison.unknowns))
+      .add("solvers", std::move(list));
+}
+
+#ifdef INTERFLECT_WITH_VTK
+/// @param with_samples  those that sample have rays, and no rows
+visual::Plot plot_of(const fem::SolverComparison& comparison, const std::string& x_label, bool with_samples,
+                     double (*x)(const SolverScore::At&, double unknowns)) {
+  visual::Plot plot{"linear solvers: error against " + x_label, x_label, "relative error, L2 over the surfaces", {}};
+  for (const SolverScore& score : comparison.scores) {
+    if (score.samples && !with_samples) continue;
+    visual::Plot::Curve curve{score.solver, {}, {}};
+    for (const SolverScore::At& at : score.history) {
+      curve.x.push_back(x(at, static_cast<double>(comparison.unknowns)));
+      curve.y.push_back(at.error);
+    }
+    if (!curve.x.empty()) plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
+void write_plots(const std::filesystem::path& folder, const fem::SolverComparison& comparison) {
+  const auto by_work = [](const SolverScore::At& at, double unknowns) { return at.rows / unknowns; };
+  const auto by_time = [](const SolverScore::At& at, double) { return at.seconds; };
+  results::write_png(folder / "solvers_work.png",
+                     visual::plot_picture(plot_of(comparison, "work [sweeps over the matrix]", false, by_work)));
+  results::write_png(folder / "solvers_time.png", visual::plot_picture(plot_of(comparison, "time [s]", true, by_time)));
+}
+#endif
+
+}  // namespace
+
+ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOptions& common, Run& run) {
+  const scene::Scene scene = read_and_note(options.scene);
+  const results::OutputDirectory folder(options.out);
+  const bool talk = !common.json && !common.quiet;
+  const auto told = [&](const SolverScore& score) {
+    if (!talk) return;
+    std::printf("%s: %s\n", score.solver.c_str(), score.why.c_str());
+    std::fflush(stdout);
+  };
+  const std::vector<std::string> names = options.solvers.empty() ? solvers::solver_names() : options.solvers;
+  const fem::SolverComparison comparison = fem::compare_solvers(scene, options.settings, names, run, told);
+  results::write_atomically(options.out / "solvers.csv", csv_of(comparison.scores));
+#ifdef INTERFLECT_WITH_VTK
+  write_plots(options.out, comparison);
+#endif
+  if (common.json) std::printf("%s\n", results::json_text(record_of(comparison)).c_str());
+  if (talk)
+    std::printf("\n%s elements, %s unknowns\n%s\nwritten to %s\n",
+                core::format_count(static_cast<unsigned long long>(comparison.elements)).c_str(),
+                core::format_count(static_cast<unsigned long long>(comparison.unknowns)).c_str(),
+                table_of(comparison).c_str(), options.out.string().c_str());
+  return success;
+}
+
+}  // namespace interflect::apps

@@ -1,0 +1,95 @@
+// Solvers that sample against the rays that they cast: rays a second as a fraction of a bare Embree loop over the same
+// rays in the same order, one thread, rounds interleaved, medians; then what a second thread brings.
+//
+//   bench_ray_solvers [scene.json] [element size]      default: the office, 0.3
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "bench/bare_embree.h"
+#include "core/sample_sequence.h"
+#include "fem/columns.h"
+#include "fem/element_materials.h"
+#include "fem/operator/dense_symmetric.h"
+#include "fem/ray_transitions.h"
+#include "mesh/uniform.h"
+#include "scene/reader.h"
+#include "solvers/stochastic_jacobi.h"
+
+namespace {
+
+using namespace interflect;
+
+constexpr std::uint64_t rays = 400000;
+constexpr int rounds = 7;
+
+struct Problem {
+  explicit Problem(const scene::Scene& scene, double size) : mesh(mesh::uniform(scene, size)) {
+    const auto of = fem::materials_of(scene, mesh.patches());
+    e = fem::to_columns(of.exitance, scene.channel_count());
+    rho = fem::to_columns(of.reflectance, scene.channel_count());
+    std::vector<double> areas;
+    for (const scene::SurfacePatch& patch : mesh.patches()) areas.push_back(patch.area);
+    K.emplace(areas);
+    R.emplace(rho);
+  }
+  mesh::ElementMesh mesh;
+  solvers::ColumnMatrix e, rho;
+  std::optional<fem::DenseSymmetric> K;  ///< empty: its areas alone are looked at
+  std::optional<solvers::Reflection> R;
+};
+
+void compare_with_bare_embree(const scene::Scene& scene, const Problem& problem) {
+  const auto caster = raycast::make_ray_caster("embree", scene);
+  const bench::Recorder recorder(*caster);
+  const auto sequence = core::make_sequence("independent", 1);
+  const solvers::ColumnMatrix power = solvers::power_of(problem.K->gram(), problem.e + problem.rho);
+  solvers::ColumnMatrix reflected = solvers::ColumnMatrix::Zero(power.rows(), power.cols());
+  const auto bounce = [&](const raycast::RayCaster& with) {
+    const fem::RayTransitions transitions(problem.mesh.patches(), with);
+    const solvers::System system{*problem.K, *problem.R, problem.e, &transitions};
+    const solvers::PowerTransfer transfer(system, power);
+    return bench::seconds([&] { transfer.add(*sequence, 0, rays, 1, reflected); });
+  };
+  bounce(recorder);
+  const bench::BareEmbree bare(scene, recorder, caster->offset());
+  std::size_t hits = 0;
+  std::vector<double> ours, theirs;
+  for (int round = 0; round < rounds; ++round) {
+    ours.push_back(bounce(*caster));
+    theirs.push_back(bench::seconds([&] { hits += bare.in_order(); }));
+  }
+  std::printf("one bounce by %.1f M rays: %.2f M rays/s = %.0f %% of bare Embree's %.2f M rays/s  (%zu hits)\n",
+              1e-6 * rays, 1e-6 * rays / bench::median(ours), 100 * bench::median(theirs) / bench::median(ours),
+              1e-6 * rays / bench::median(theirs), hits);
+}
+
+void compare_threads(const scene::Scene& scene, const Problem& problem) {
+  const auto caster = raycast::make_ray_caster("embree", scene);
+  const fem::RayTransitions transitions(problem.mesh.patches(), *caster);
+  const solvers::System system{*problem.K, *problem.R, problem.e, &transitions};
+  for (const char* name : {"stochastic-jacobi", "shooting-collision"}) {
+    std::vector<double> by_threads[2];
+    for (int round = 0; round < rounds; ++round)
+      for (const unsigned threads : {1u, 2u}) {
+        core::LocalRun run(1, threads);
+        solvers::SolverState state{system.e};
+        solvers::StoppingRule rule;
+        rule.samples = rays;
+        const auto solver = solvers::make_solver(name);
+        by_threads[threads - 1].push_back(bench::seconds([&] { solver->advance(system, state, rule, run); }));
+      }
+    std::printf("%s, two threads: %.2f times one\n", name, bench::median(by_threads[0]) / bench::median(by_threads[1]));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string file = argc > 1 ? argv[1] : INTERFLECT_SOURCE_DIR "/data/scenes/office.json";
+  const scene::Scene scene = scene::read_scene(file);
+  const Problem problem(scene, argc > 2 ? std::atof(argv[2]) : 0.3);
+  std::printf("%s, %td elements\n", file.c_str(), problem.mesh.size());
+  compare_with_bare_embree(scene, problem);
+  compare_threads(scene, problem);
+}

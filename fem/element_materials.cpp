@@ -1,0 +1,45 @@
+#include "fem/element_materials.h"
+
+#include "fem/columns.h"
+#include "fem/space/polynomials.h"
+
+namespace interflect::fem {
+
+using solvers::ColumnMatrix;
+
+ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches) {
+  ElementMaterials out;
+  for (const scene::SurfacePatch& patch : patches) {
+    const scene::Material& material = scene.material(patch.surface);
+    out.exitance.push_back(material.exitance_of(patch.side));
+    out.reflectance.push_back(material.reflectance_of(patch.side));
+  }
+  return out;
+}
+
+MaterialColumns on_functions(std::span<const Spectrum> exitance, std::span<const Spectrum> reflectance, int channels,
+                             std::span<const int> degree, Index functions) {
+  const Index elements = std::ssize(degree);
+  MaterialColumns out{ColumnMatrix::Zero(elements * functions, channels), {}};
+  out.R = out.e;
+  const ColumnMatrix e = to_columns(exitance, channels), R = to_columns(reflectance, channels);
+  for (Index i = 0; i < elements; ++i) {
+    const Index active = plane_functions(degree[static_cast<std::size_t>(i)]);
+    out.e.row(i * functions) = e.row(i);
+    out.R.middleRows(i * functions, active).rowwise() = R.row(i);
+  }
+  return out;
+}
+
+MaterialColumns at_nodes(std::span<const Spectrum> exitance, std::span<const Spectrum> reflectance, int channels,
+                         const NodeSet& nodes) {
+  const ColumnMatrix e = to_columns(exitance, channels), R = to_columns(reflectance, channels);
+  MaterialColumns out{ColumnMatrix(nodes.size(), channels), ColumnMatrix(nodes.size(), channels)};
+  for (Index k = 0; k < nodes.size(); ++k) {
+    out.e.row(k) = e.row(nodes.panel[static_cast<std::size_t>(k)]);
+    out.R.row(k) = R.row(nodes.panel[static_cast<std::size_t>(k)]);
+  }
+  return out;
+}
+
+}  // namespace interflect::fem

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/spectrum.h"
+#include "fem/space/node_set.h"
+#include "scene/scene.h"
+#include "solvers/transport_operator.h"
+
+namespace interflect::fem {
+
+/// What elements emit and reflect.
+struct ElementMaterials {
+  std::vector<Spectrum> exitance, reflectance;
+};
+ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches);
+
+/// The same of unknowns, unknowns x channels: e of a system, and the diagonal of R.
+struct MaterialColumns {
+  solvers::ColumnMatrix e, R;
+};
+/// Of polynomials: exitance of elements' first functions, reflectance of those up to a degree, 0 of all others.
+/// @param degree     of elements
+/// @param functions  that each has
+MaterialColumns on_functions(std::span<const Spectrum> exitance, std::span<const Spectrum> reflectance, int channels,
+                             std::span<const int> degree, Index functions);
+/// Of values at nodes: what the element has that a node lies on.
+MaterialColumns at_nodes(std::span<const Spectrum> exitance, std::span<const Spectrum> reflectance, int channels,
+                         const NodeSet& nodes);
+
+}  // namespace interflect::fem

@@ -1,0 +1,103 @@
+#include "core/error.h"
+#include "solvers/automatic.h"
+#include "solvers/conjugate_gradients.h"
+#include "solvers/gauss_seidel.h"
+#include "solvers/gmres.h"
+#include "solvers/jacobi.h"
+#include "solvers/progressive.h"
+#include "solvers/random_walk.h"
+#include "solvers/southwell.h"
+#include "solvers/stochastic_jacobi.h"
+
+namespace interflect::solvers {
+namespace {
+
+template <class Solver>
+std::unique_ptr<RadiositySolver> plain(const SolverSettings&) {
+  return std::make_unique<Solver>();
+}
+
+std::unique_ptr<RadiositySolver> over_relaxation(const SolverSettings& settings) {
+  if (!(settings.relaxation > 0 && settings.relaxation < 2))
+    throw core::InputError("solver 'over-relaxation'", "0 < relaxation < 2 expected");
+  return std::make_unique<GaussSeidel>(settings.relaxation);
+}
+std::unique_ptr<RadiositySolver> symmetric_gauss_seidel(const SolverSettings&) {
+  return std::make_unique<GaussSeidel>(1, GaussSeidel::Sweep::there_and_back);
+}
+std::unique_ptr<RadiositySolver> gmres(const SolverSettings& settings) {
+  if (settings.restart < 1) throw core::InputError("solver 'gmres'", "a restart of 1 or more expected");
+  return std::make_unique<Gmres>(settings.restart);
+}
+std::unique_ptr<RadiositySolver> southwell(const SolverSettings& settings) {
+  return std::make_unique<Southwell>(settings.steps);
+}
+std::unique_ptr<RadiositySolver> progressive(const SolverSettings& settings) {
+  if (!(settings.overshoot >= 0 && settings.overshoot <= 1))
+    throw core::InputError("solver 'progressive'", "0 <= overshoot <= 1 expected");
+  return std::make_unique<Progressive>(settings);
+}
+
+using Way = RandomWalk::Way;
+using Score = RandomWalk::Score;
+template <Way way, Score score>
+std::unique_ptr<RadiositySolver> walks(const SolverSettings& settings) {
+  return std::make_unique<RandomWalk>(way, score, settings);
+}
+
+template <bool regular>
+std::unique_ptr<RadiositySolver> stochastic_jacobi(const SolverSettings& settings) {
+  return std::make_unique<StochasticJacobi>(regular, settings);
+}
+
+}  // namespace
+
+const std::vector<SolverEntry>& known_solvers() {
+  static const std::vector<SolverEntry> all{
+      {"automatic", "conjugate gradients, or gmres where the operator is not symmetric", false, plain<Automatic>},
+      {"conjugate-gradients", "on the symmetrised operator: few iterations at any reflectance", false,
+       plain<ConjugateGradients>},
+      {"gmres", "least residuals: for operators that are not symmetric, as collocation's", false, gmres},
+      {"jacobi", "one bounce of light an iteration", false, plain<Jacobi>},
+      {"gauss-seidel", "row after row with the newest values: half as many sweeps", false, plain<GaussSeidel>},
+      {"symmetric-gauss-seidel", "over all rows and back", false, symmetric_gauss_seidel},
+      {"over-relaxation", "Gauss-Seidel's steps times --relaxation", false, over_relaxation},
+      {"southwell", "the largest residual first", false, southwell},
+      {"progressive", "the brightest shoots what it has: a picture after every step", false, progressive},
+      {"stochastic-jacobi", "bounces by rays, in proportion to the power", true, stochastic_jacobi<false>},
+      {"regular-stochastic-jacobi", "the same, and then bounces of all that there is", true, stochastic_jacobi<true>},
+      {"shooting-collision", "random walks from what shines, scored at every hit", true,
+       walks<Way::shooting, Score::collision>},
+      {"shooting-survival", "the same, scored where they go on", true, walks<Way::shooting, Score::survival>},
+      {"shooting-absorption", "the same, scored where they end", true, walks<Way::shooting, Score::absorption>},
+      {"gathering-collision", "random walks from every element, scored at every hit", true,
+       walks<Way::gathering, Score::collision>},
+      {"gathering-survival", "the same, scored where they go on", true, walks<Way::gathering, Score::survival>},
+      {"gathering-absorption", "the same, scored where they end", true, walks<Way::gathering, Score::absorption>},
+  };
+  return all;
+}
+
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names;
+  for (const SolverEntry& each : known_solvers()) names.push_back(each.name);
+  return names;
+}
+
+std::vector<std::string> solver_names(bool samples) {
+  std::vector<std::string> names;
+  for (const SolverEntry& each : known_solvers())
+    if (each.samples == samples) names.push_back(each.name);
+  return names;
+}
+
+std::unique_ptr<RadiositySolver> make_solver(const std::string& name, const SolverSettings& settings) {
+  std::string known;
+  for (const SolverEntry& each : known_solvers()) {
+    if (each.name == name) return each.make(settings);
+    known += (known.empty() ? "" : ", ") + each.name;
+  }
+  throw core::InputError("solver '" + name + "'", "one of " + known + " expected");
+}
+
+}  // namespace interflect::solvers

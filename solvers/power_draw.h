@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/transport_operator.h"
+
+namespace interflect::solvers {
+
+/// Unknowns drawn with a probability in proportion to the power that they send, columns having an equal say.
+class PowerDraw {
+ public:
+  /// @param power  [W | lm], unknowns x columns; signs do not matter
+  explicit PowerDraw(const ColumnMatrix& power);
+
+  struct Drawn {
+    Index unknown;
+    double probability;
+  };
+  /// @param u  in [0, 1): areas of its interval onto unknowns, so that evenly spread numbers are drawn evenly
+  Drawn operator()(double u) const;
+  bool nothing() const { return !(cumulative_.back() > 0); }
+
+ private:
+  std::vector<double> cumulative_;
+};
+
+/// Radiosity times area: what unknowns send.
+ColumnMatrix power_of(std::span<const double> areas, ConstColumns radiosity);
+
+}  // namespace interflect::solvers

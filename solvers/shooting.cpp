@@ -1,0 +1,158 @@
+#include "solvers/shooting.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "solvers/bounce.h"
+#include "solvers/system_check.h"
+
+namespace interflect::solvers {
+namespace {
+
+constexpr Index chunk = 4096;  ///< unknowns that one thread updates: less is not worth waking another
+
+const RowAccess& symmetric_rows(const System& system, const std::string& solver) {
+  if (!system.K.symmetric())
+    throw core::InputError("solver '" + solver + "'", "a symmetric operator expected; use 'automatic' here");
+  return required_rows(system, solver);
+}
+
+}  // namespace
+
+Shooting::Shooting(const System& system, const std::string& solver, const ColumnMatrix& x, const ColumnMatrix& r,
+                   const Run& run, double overshoot)
+    : system_(system),
+      access_(symmetric_rows(system, solver)),
+      run_(run),
+      overshoot_(overshoot),
+      ahead_(Eigen::VectorXd::Zero(x.cols())),
+      x_(x.transpose()),
+      r_(r.transpose()),
+      by_area_(system.R.reflectance().transpose()),
+      row_(ColumnMatrix::Zero(1, x.rows())),
+      of_chunks_(static_cast<std::size_t>((x.rows() + chunk - 1) / chunk)),
+      residual_of_chunks_(x.cols(), std::ssize(of_chunks_)),
+      largest_x_(x_.cwiseAbs().rowwise().maxCoeff()) {
+  for (Index a = 0; a < unknowns(); ++a) by_area_.col(a) /= system.K.gram()[static_cast<std::size_t>(a)];
+  spread(Eigen::VectorXd::Zero(columns()));
+}
+
+double Shooting::unshot_fraction() const {
+  const Eigen::Map<const Eigen::ArrayXd> G(system_.K.gram().data(), unknowns());
+  double largest = 0;
+  for (Index c = 0; c < columns(); ++c) {
+    const double all = (G * system_.e.col(c).array().abs()).sum();
+    if (all > 0) largest = std::max(largest, (G * r_.row(c).transpose().array().abs()).sum() / all);
+  }
+  return largest;
+}
+
+double Shooting::relative_residual() const {
+  double largest = 0;
+  for (Index c = 0; c < columns(); ++c) {
+    const double r = residual_of_chunks_.row(c).maxCoeff<Eigen::PropagateNaN>();
+    if (std::isnan(r)) return r;
+    if (r > 0) largest = std::max(largest, largest_x_(c) > 0 ? r / largest_x_(c) : 1.0);
+  }
+  return largest;
+}
+
+void Shooting::step(Index i, const Eigen::VectorXd& d) {
+  access_.rows(i, 1, row_);
+  move(i, d);
+  r_.col(i) -= d;
+  spread(d);
+}
+
+void Shooting::relax(Index i) {
+  access_.rows(i, 1, row_);
+  Eigen::VectorXd d(columns());
+  for (Index c = 0; c < columns(); ++c) d(c) = r_(c, i) / (1 - by_area_(c, i) * row_(0, i));
+  move(i, d);
+  r_.col(i).setZero();
+  if (std::isfinite(row_(0, i))) row_(0, i) = 0;
+  spread(d);
+}
+
+void Shooting::move(Index i, const Eigen::VectorXd& d) {
+  for (Index c = 0; c < columns(); ++c) {
+    const double before = std::abs(x_(c, i)), now = std::abs(x_(c, i) += d(c));
+    if (now >= largest_x_(c))
+      largest_x_(c) = now;
+    else if (before == largest_x_(c))
+      largest_x_(c) = x_.row(c).cwiseAbs().maxCoeff();
+  }
+}
+
+void Shooting::spread(const Eigen::VectorXd& d) {
+  const bool in_one_go = !(overshoot_ > 0);
+  run_.threads.for_blocks(unknowns(), chunk, [&](Index begin, Index end) {
+    spread(d, begin, end);
+    if (in_one_go) scan(begin, end);
+  });
+  if (!in_one_go) {
+    ahead_ = overshoot_ * ambient(system_, r_.transpose()).cwiseMax(0.0).transpose();
+    run_.threads.for_blocks(unknowns(), chunk, [&](Index begin, Index end) { scan(begin, end); });
+  }
+  find_brightest();
+}
+
+void Shooting::spread(const Eigen::VectorXd& d, Index begin, Index end) {
+  const Index count = end - begin;
+  const auto K = row_.row(0).segment(begin, count).array();
+  for (Index c = 0; c < columns(); ++c)
+    r_.row(c).segment(begin, count).array() += d(c) * K * by_area_.row(c).segment(begin, count).array();
+}
+
+/// rho_a = by_area_a G_a
+Eigen::VectorXd Shooting::to_shoot(Index a) const {
+  const double G = system_.K.gram()[static_cast<std::size_t>(a)];
+  return r_.col(a) + G * by_area_.col(a).cwiseProduct(ahead_);
+}
+
+void Shooting::scan(Index begin, Index end) {
+  const Index count = end - begin, k = begin / chunk;
+  const Eigen::Map<const Eigen::RowVectorXd> G(system_.K.gram().data() + begin, count);
+  Eigen::RowVectorXd power = Eigen::RowVectorXd::Zero(count);
+  for (Index c = 0; c < columns(); ++c) {
+    const auto r = r_.row(c).segment(begin, count);
+    residual_of_chunks_(c, k) = r.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (ahead_(c) > 0)
+      power += (r + ahead_(c) * by_area_.row(c).segment(begin, count).cwiseProduct(G)).cwiseAbs();
+    else
+      power += r.cwiseAbs();
+  }
+  Brightest& found = of_chunks_[static_cast<std::size_t>(k)];
+  power = power.cwiseProduct(G);
+  found.power = power.maxCoeff(&found.unknown);  // the first of equal ones
+  found.unknown += begin;
+}
+
+void Shooting::find_brightest() {
+  Brightest found;
+  for (const Brightest& each : of_chunks_)
+    if (each.power > found.power) found = each;
+  brightest_ = found.unknown;
+}
+
+bool is_enough(const Shooting& shooting, const StoppingRule& rule) {
+  return !(shooting.relative_residual() > rule.tolerance) ||
+         (rule.unshot > 0 && shooting.unshot_fraction() <= rule.unshot);
+}
+
+Eigen::RowVectorXd ambient(const System& system, ConstColumns unshot) {
+  const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), unshot.rows());
+  const Eigen::RowVectorXd absorbing = G.sum() - (G * system.R.reflectance()).array();
+  return (G * unshot).cwiseQuotient(absorbing);
+}
+
+Shooting begin_shooting(const System& system, const std::string& solver, const SolverState& state, Run& run,
+                        double overshoot) {
+  const ColumnMatrix nothing = ColumnMatrix::Zero(state.x.rows(), state.x.cols());
+  if (state.residual.size() > 0) return {system, solver, state.x, state.residual, run, overshoot};
+  if (state.x == system.e) return {system, solver, nothing, system.e, run, overshoot};
+  symmetric_rows(system, solver);
+  return {system, solver, state.x, residual_of(system, state.x, run), run, overshoot};
+}
+
+}  // namespace interflect::solvers

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "solvers/solver.h"
+
+namespace interflect::solvers {
+
+/// A solve by rows of K, one unknown a step: x, and with it the residual r = e + R G^-1 K x - x, which is what light there
+/// is that was not shot yet.  A step from unknown i by d:
+///
+///   x_i += d,   r_i -= d,   r_a += rho_a / G_a K_ai d  for all a
+///
+/// needs row i of a symmetric K alone, and leaves r true whatever d is.  Columns share rows: i is the unknown with the most
+/// power to shoot, the largest sum over the columns of G_i |r_i|; of equal ones the first.  It is found while r is updated.
+///
+/// With overshooting what i has to shoot is r_i + s rho_i Amb, s the share asked for, where the ambient term
+///
+///   Amb = sum_a G_a r_a / sum_a (1 - rho_a) G_a
+///
+/// is positive: what the bounces of all that is unshot would bring, if they spread evenly.
+/// Test: tests/solvers/shooting.cpp
+class Shooting {
+ public:
+  /// @param x, r       what there is already; r that of x
+  /// @param overshoot  s
+  /// @throws core::InputError  as required_rows, and where K is not symmetric
+  Shooting(const System& system, const std::string& solver, const ColumnMatrix& x, const ColumnMatrix& r,
+           const Run& run, double overshoot = 0);
+
+  Index unknowns() const { return x_.cols(); }
+  Index columns() const { return x_.rows(); }
+  Index brightest() const { return brightest_; }
+  Eigen::VectorXd unshot(Index a) const { return r_.col(a); }
+  Eigen::VectorXd to_shoot(Index a) const;
+  /// sum G |r| / sum G |e|, the largest of the columns that shine.
+  double unshot_fraction() const;
+  /// max |r| / max |x|, as StoppingRule wants it; 1 of a column that has not begun.
+  double relative_residual() const;
+
+  /// @param d  one a column
+  void step(Index i, const Eigen::VectorXd& d);
+  /// So that r_i is 0 afterwards, to the bit: d_i = r_i / (1 - rho_i K_ii / G_i).
+  void relax(Index i);
+
+  ColumnMatrix x() const { return x_.transpose(); }
+  ColumnMatrix residual() const { return r_.transpose(); }
+
+ private:
+  struct Brightest {
+    double power = -1;
+    Index unknown = 0;
+  };
+  void move(Index i, const Eigen::VectorXd& d);
+  /// r_a += rho_a / G_a K_ai d by the row that was fetched, and what follows from it.
+  void spread(const Eigen::VectorXd& d);
+  void spread(const Eigen::VectorXd& d, Index begin, Index end);
+  void scan(Index begin, Index end);
+  void find_brightest();
+
+  System system_;
+  const RowAccess& access_;
+  const Run& run_;
+  double overshoot_;
+  Eigen::VectorXd ahead_;         ///< s Amb, not below 0
+  ColumnMatrix x_, r_, by_area_;  ///< columns x unknowns; rho_a / G_a
+  ColumnMatrix row_;              ///< 1 x unknowns
+  std::vector<Brightest> of_chunks_;
+  Eigen::MatrixXd residual_of_chunks_;  ///< max |r|, columns x chunks
+  Eigen::VectorXd largest_x_;           ///< max |x|
+  Index brightest_ = 0;
+};
+
+/// Whether a residual is small enough, or what is unshot, or anything is no number.
+bool is_enough(const Shooting& shooting, const StoppingRule& rule);
+
+/// Where a solve by steps begins: where the state is if it has a residual; at x = 0 with r = e where it holds e, as a
+/// fresh one does; else at its x.
+Shooting begin_shooting(const System& system, const std::string& solver, const SolverState& state, Run& run,
+                        double overshoot = 0);
+
+/// Amb of each column.
+Eigen::RowVectorXd ambient(const System& system, ConstColumns unshot);
+
+}  // namespace interflect::solvers
