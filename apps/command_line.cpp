@@ -165,7 +165,7 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
       compare_solvers, options, chosen);
   add_scene(*command, options->scene);
   add_folder(*command, options->out, "the table and the plots");
-  command->add_option("--solvers", options->solvers, "Which ones; default: all")
+  command->add_option("--solvers", options->solvers, "Which ones; default: all, of which `automatic` is one")
       ->check(CLI::IsMember(solvers::solver_names()));
   add_equations(*command, options->settings);
 }

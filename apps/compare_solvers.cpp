@@ -116,7 +116,10 @@ ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOpt
     std::printf("%s: %s\n", score.solver.c_str(), score.why.c_str());
     std::fflush(stdout);
   };
-  const std::vector<std::string> names = options.solvers.empty() ? solvers::solver_names() : options.solvers;
+  std::vector<std::string> names = options.solvers;
+  if (names.empty())
+    for (const std::string& each : solvers::solver_names())
+      if (each != "automatic") names.push_back(each);  // which is one of the others
   const fem::SolverComparison comparison = fem::compare_solvers(scene, options.settings, names, run, told);
   results::write_atomically(options.out / "solvers.csv", csv_of(comparison.scores));
 #ifdef INTERFLECT_WITH_VTK
