@@ -4,17 +4,14 @@ namespace interflect::fem {
 
 RayTransitions::RayTransitions(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays)
     : rays_(rays), locate_(patches) {
-  for (const scene::SurfacePatch& patch : patches) {
-    maps_.emplace_back(patch.ring());
-    frames_.push_back(core::frame_around(patch.normal()));
-  }
+  for (const scene::SurfacePatch& patch : patches)
+    senders_.push_back({UniformMap(patch.ring()), core::frame_around(patch.normal())});
 }
 
 std::optional<Index> RayTransitions::from_element(Index i, std::span<const double> u) const {
-  const auto element = static_cast<std::size_t>(i);
-  const core::Frame& frame = frames_[element];
-  const auto hit = rays_.closest(
-      {maps_[element](u[0], u[1]), frame.to_world(core::cosine_hemisphere(u[2], u[3])).normalized(), frame.n});
+  const auto& [map, frame] = senders_[static_cast<std::size_t>(i)];
+  const auto hit =
+      rays_.closest({map(u[0], u[1]), frame.to_world(core::cosine_hemisphere(u[2], u[3])).normalized(), frame.n});
   if (!hit) return std::nullopt;
   const Index j = locate_(*hit);
   return j == ElementLocator::none ? std::nullopt : std::optional<Index>(j);

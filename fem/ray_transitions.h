@@ -27,8 +27,11 @@ class RayTransitions final : public solvers::TransitionSampler {
  private:
   const raycast::RayCaster& rays_;
   ElementLocator locate_;
-  std::vector<UniformMap> maps_;
-  std::vector<core::Frame> frames_;
+  struct Sender {
+    UniformMap map;
+    core::Frame frame;
+  };
+  std::vector<Sender> senders_;
 };
 
 }  // namespace interflect::fem

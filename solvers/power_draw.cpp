@@ -1,6 +1,7 @@
 #include "solvers/power_draw.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace interflect::solvers {
 
@@ -10,14 +11,21 @@ PowerDraw::PowerDraw(const ColumnMatrix& power) : cumulative_(static_cast<std::s
     if (const double all = power.col(c).cwiseAbs().sum(); all > 0) shares += power.col(c).array().abs() / all;
   double sum = 0;
   for (std::size_t a = 0; a < cumulative_.size(); ++a) cumulative_[a] = sum += shares(static_cast<Index>(a));
+  const std::size_t n = cumulative_.size();
+  for (std::size_t k = 0, a = 0; k < n; ++k) {
+    while (a + 1 < n && cumulative_[a] <= sum * (static_cast<double>(k) / static_cast<double>(n))) ++a;
+    guide_.push_back(static_cast<std::uint32_t>(a));
+  }
 }
 
 PowerDraw::Drawn PowerDraw::operator()(double u) const {
+  const std::size_t n = cumulative_.size();
   const double all = cumulative_.back();
-  auto at = std::upper_bound(cumulative_.begin(), cumulative_.end(), u * all);
-  if (at == cumulative_.end()) at = std::lower_bound(cumulative_.begin(), cumulative_.end(), all);  // by rounding
-  const double before = at == cumulative_.begin() ? 0 : *(at - 1);
-  return {at - cumulative_.begin(), (*at - before) / all};
+  std::size_t a = guide_[std::min(n - 1, static_cast<std::size_t>(u * static_cast<double>(n)))];
+  while (a + 1 < n && cumulative_[a] <= u * all) ++a;
+  while (a > 0 && !(cumulative_[a] > cumulative_[a - 1])) --a;  // by rounding, past all that sends anything
+  const double before = a == 0 ? 0 : cumulative_[a - 1];
+  return {static_cast<Index>(a), (cumulative_[a] - before) / all};
 }
 
 ColumnMatrix power_of(std::span<const double> areas, ConstColumns radiosity) {

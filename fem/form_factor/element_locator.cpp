@@ -37,8 +37,8 @@ ElementLocator::ElementLocator(std::span<const scene::SurfacePatch> patches) : m
   }
   for (const mesh::ElementMesh::Part& part : mesh_.parts()) {
     part_.resize(std::max(part_.size(), slot(part.surface, part.side) + 1), -1);
-    part_[slot(part.surface, part.side)] = static_cast<std::int32_t>(trees_.size());
-    trees_.emplace_back(std::span(boxes).subspan(part.first, part.count));
+    part_[slot(part.surface, part.side)] = static_cast<std::int32_t>(grids_.size());
+    grids_.emplace_back(std::span(boxes).subspan(part.first, part.count));
   }
 }
 
@@ -50,15 +50,13 @@ Index ElementLocator::operator()(const scene::SurfacePoint& point) const {
 
   Index found = none;
   double least = std::numeric_limits<double>::infinity();
-  trees_[part].traverse([&](const geometry::Box& box) { return box.contains(point.position); },
-                        [&](std::uint32_t item) {
-                          const Outline& o = outlines_[static_cast<std::size_t>(first + item)];
-                          const Vec3 d = point.position - o.corner;
-                          for (std::size_t k = 0; k < 4; ++k)
-                            if (o.inwards[k].dot(d) < o.offset[k]) return;
-                          const double height = std::abs(o.normal.dot(d));
-                          if (height <= o.thickness && height < least) least = height, found = first + item;
-                        });
+  for (const std::uint32_t item : grids_[part].near(point.position)) {
+    const Outline& o = outlines_[static_cast<std::size_t>(first + item)];
+    const Vec3 d = point.position - o.corner;
+    if (!o.holds(d)) continue;
+    const double height = std::abs(o.normal.dot(d));
+    if (height <= o.thickness && height < least) least = height, found = first + item;
+  }
   if (found != none) return found;
   const auto nearest = mesh_.locate(point);
   return nearest ? static_cast<Index>(nearest->element.value) : none;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/box_tree.h"
+#include "geometry/box_grid.h"
 #include "mesh/element_mesh.h"
 
 namespace interflect::fem {
@@ -30,12 +30,19 @@ class ElementLocator {
     std::array<Vec3, 4> inwards;  ///< zero for what is not an edge
     std::array<double, 4> offset;
     double thickness;  ///< how far off its plane a point may be found on it [m]
+
+    /// Whether what is d from the corner is on the inner side of all edges.
+    bool holds(const Vec3& d) const {
+      bool all = true;
+      for (std::size_t k = 0; k < 4; ++k) all &= !(inwards[k].dot(d) < offset[k]);
+      return all;
+    }
   };
   static Outline outline_of(const scene::SurfacePatch& patch);
 
   mesh::ElementMesh mesh_;
   std::vector<Outline> outlines_;
-  std::vector<geometry::BoxTree> trees_;  ///< of the mesh's parts
+  std::vector<geometry::BoxGrid> grids_;  ///< of the mesh's parts
   std::vector<std::int32_t> part_;        ///< by surface and side; -1: it has none
 };
 
