@@ -14,7 +14,7 @@
 #include "fem/ray_transitions.h"
 #include "mesh/uniform.h"
 #include "scene/reader.h"
-#include "solvers/stochastic_jacobi.h"
+#include "solvers/power_transfer.h"
 
 namespace {
 

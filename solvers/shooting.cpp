@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "solvers/bounce.h"
+#include "solvers/iterations.h"
 #include "solvers/system_check.h"
 
 namespace interflect::solvers {
@@ -135,11 +136,6 @@ void Shooting::find_brightest() {
   brightest_ = found.unknown;
 }
 
-bool is_enough(const Shooting& shooting, const StoppingRule& rule) {
-  return !(shooting.relative_residual() > rule.tolerance) ||
-         (rule.unshot > 0 && shooting.unshot_fraction() <= rule.unshot);
-}
-
 Eigen::RowVectorXd ambient(const System& system, ConstColumns unshot) {
   const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), unshot.rows());
   const Eigen::RowVectorXd absorbing = G.sum() - (G * system.R.reflectance()).array();
@@ -153,6 +149,34 @@ Shooting begin_shooting(const System& system, const std::string& solver, const S
   if (state.x == system.e) return {system, solver, nothing, system.e, run, overshoot};
   symmetric_rows(system, solver);
   return {system, solver, state.x, residual_of(system, state.x, run), run, overshoot};
+}
+
+namespace {
+
+/// Also where anything is no number.
+bool is_enough(const Shooting& shooting, const StoppingRule& rule) {
+  return !(shooting.relative_residual() > rule.tolerance) ||
+         (rule.unshot > 0 && shooting.unshot_fraction() <= rule.unshot);
+}
+
+}  // namespace
+
+SolverReport solve_by_steps(const System& system, const std::string& solver, SolverState& state,
+                            const StoppingRule& rule, Run& run, double overshoot, Index of_iteration,
+                            const std::function<void(Shooting&, Index brightest)>& step) {
+  require_solvable(system);
+  if (!prepare(system, state)) return {.why = SolverReport::Stopped::nothing_to_do};
+  Shooting shooting = begin_shooting(system, solver, state, run, overshoot);
+  const Index most = of_iteration > 0 ? of_iteration : shooting.unknowns();
+  Iterations iterations(state, rule, run);
+  for (bool more = true; more;) {
+    Index steps = 0;
+    for (; steps < most && !is_enough(shooting, rule) && (steps == 0 || !iterations.interrupted()); ++steps)
+      step(shooting, shooting.brightest());
+    ColumnMatrix x = shooting.x(), r = shooting.residual();
+    more = iterations.next(x, r, {shooting.relative_residual(), static_cast<double>(steps), is_enough(shooting, rule)});
+  }
+  return iterations.report();
 }
 
 }  // namespace interflect::solvers

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "solvers/solver.h"
 
 namespace interflect::solvers {
@@ -69,11 +73,13 @@ class Shooting {
   Index brightest_ = 0;
 };
 
-/// Whether a residual is small enough, or what is unshot, or anything is no number.
-bool is_enough(const Shooting& shooting, const StoppingRule& rule);
-
-/// Where a solve by steps begins: where the state is if it has a residual; at x = 0 with r = e where it holds e, as a
-/// fresh one does; else at its x.
+/// Steps until a residual is small enough, or what is unshot, `of_iteration` of them an iteration (0: as many as there are
+/// unknowns, about a sweep's work).  It begins where the state is if that has a residual; at x = 0 with r = e where it
+/// holds e, as a fresh one does; else at its x.
+SolverReport solve_by_steps(const System& system, const std::string& solver, SolverState& state,
+                            const StoppingRule& rule, Run& run, double overshoot, Index of_iteration,
+                            const std::function<void(Shooting&, Index brightest)>& step);
+/// Where that begins.
 Shooting begin_shooting(const System& system, const std::string& solver, const SolverState& state, Run& run,
                         double overshoot = 0);
 

@@ -6,8 +6,8 @@
 
 #include "core/sample_sequence.h"
 #include "fem/radiosity_operator.h"
+#include "solvers/power_transfer.h"
 #include "solvers/replications.h"
-#include "solvers/stochastic_jacobi.h"
 #include "tests/fem/rooms.h"
 
 namespace interflect::fem {

@@ -1,4 +1,4 @@
-#include "solvers/stochastic_jacobi.h"
+#include "solvers/power_transfer.h"
 
 #include <gtest/gtest.h>
 
