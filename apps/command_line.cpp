@@ -170,6 +170,24 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
   add_equations(*command, options->settings);
 }
 
+void add_shoot(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<ShootOptions>();
+  options->settings.solver = "progressive";
+  options->settings.stopping.unshot = 0.01;
+  CLI::App* command = add_command<ShootOptions>(
+      app, "shoot", "Progressive refinement: pictures from the first shot on, and no matrix in memory",
+      core::format("interflect shoot %s -o out/shots --element-size 0.02 --every 50 --unshot 5%%", example_scene),
+      shoot, options, chosen);
+  add_scene(*command, options->scene);
+  add_folder(*command, options->out);
+  command->add_option("--every", options->every, "Shots after which there is a picture and a .vtu; 0: at the end alone")
+      ->check(CLI::Range(0, 1 << 30))
+      ->capture_default_str();
+  command->add_flag("--resume", options->resume, "Go on from the checkpoint that an earlier run left in the folder");
+  add_shooting(*command, options->settings);
+  add_no_pictures(*command, options->pictures);
+}
+
 void add_exchange(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ExchangeOptions>();
   options->settings.form_factors = "analytic";
@@ -251,6 +269,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_compare_form_factors(app, command);
   add_solvers(app, command);
   add_compare_solvers(app, command);
+  add_shoot(app, command);
   add_exchange(app, command);
   add_info(app, command);
   add_check(app, command);

@@ -20,6 +20,7 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
 ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const CommonOptions& common, Run& run);
 ExitStatus solvers(const SolversOptions& options, const CommonOptions& common, Run& run);
 ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOptions& common, Run& run);
+ExitStatus shoot(const ShootOptions& options, const CommonOptions& common, Run& run);
 ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run);
 ExitStatus info(const InfoOptions& options, const CommonOptions& common, Run& run);
 ExitStatus check(const CheckOptions& options, const CommonOptions& common, Run& run);

@@ -44,11 +44,13 @@ fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::sp
 
 std::string goal_line(const std::string& quantity, double value, double error, const char* unit,
                       std::optional<double> proved) {
-  const double bound = proved.value_or(error);
-  const std::string part = value > 0 ? core::format("%.2g %%, ", 100 * bound / value) : "";
+  const std::string told = core::format("%.5g", value);
+  const double rounding = std::abs(std::strtod(told.c_str(), nullptr) - value),
+               bound = proved.value_or(error) + rounding;
+  const std::string part = value > 0 ? core::format("%.2g %%, ", core::rounded_up(100 * bound / value, 2)) : "";
   const std::string claim = proved ? core::format("guaranteed; estimated %.2g", error) : "estimated";
-  return core::format("%s = %.5g %s, error <= %.2g %s (%s%s)", quantity.c_str(), value, unit, bound, unit, part.c_str(),
-                      claim.c_str());
+  return core::format("%s = %s %s, error <= %.2g %s (%s%s)", quantity.c_str(), told.c_str(), unit,
+                      core::rounded_up(bound, 2), unit, part.c_str(), claim.c_str());
 }
 
 std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene) {

@@ -20,19 +20,12 @@ void require_heeded(const CLI::Option& option, const std::string& method, fem::S
 /// Where the options of how much a form-factor method does go.
 struct EffortOptions {
   const std::string& method;
-  double& row_tolerance;
   std::uint64_t& samples;
   int& resolution;
   int& visibility_rays;
 };
 
-/// @param when_0  what a tolerance of 0 means, where that is the default
-void add_effort(CLI::App& command, const EffortOptions& options, const std::string& when_0 = "") {
-  CLI::Option* tolerance =
-      command.add_option("--tolerance", options.row_tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
-          ->check(within(1e-9, 0.5))
-          ->capture_default_str();
-  if (!when_0.empty()) tolerance->default_str(when_0);
+void add_effort(CLI::App& command, const EffortOptions& options) {
   const CLI::Option* samples =
       command
           .add_option("--samples", options.samples,
@@ -53,6 +46,12 @@ void add_effort(CLI::App& command, const EffortOptions& options, const std::stri
     require_heeded(*cells, method, fem::Setting::resolution);
     require_heeded(*rays, method, fem::Setting::rays);
   });
+}
+
+CLI::Option* add_row_tolerance(CLI::App& command, double& tolerance) {
+  return command.add_option("--tolerance", tolerance, "Largest sum of a row's errors, max_i sum_j |dF_ij|")
+      ->check(within(1e-9, 0.5))
+      ->capture_default_str();
 }
 
 /// The polynomials' degree; by analytic form factors, where no others are asked for.
@@ -125,6 +124,12 @@ void add_drop_below(CLI::App& command, double& drop_below) {
       ->capture_default_str();
 }
 
+void add_overshoot(CLI::App& command, double& overshoot) {
+  command.add_option("--overshoot", overshoot, "Of progressive: the share of the ambient light that is shot ahead")
+      ->check(within(0.0, 1.0))
+      ->capture_default_str();
+}
+
 /// When solvers stop, and what some may be told.
 void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
   command.add_option("--solver-tolerance", s.stopping.tolerance, "Relative residual at which it stops")
@@ -138,11 +143,7 @@ void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
   command.add_option("--relaxation", s.solver_settings.relaxation, "Of over-relaxation: what of a step is gone")
       ->check(within(1e-3, 1.999))
       ->capture_default_str();
-  command
-      .add_option("--overshoot", s.solver_settings.overshoot,
-                  "Of progressive: the share of the ambient light that is shot ahead")
-      ->check(within(0.0, 1.0))
-      ->capture_default_str();
+  add_overshoot(command, s.solver_settings.overshoot);
 }
 
 void add_solver(CLI::App& command, fem::RadiositySettings& s) {
@@ -239,12 +240,13 @@ void add_accuracy(CLI::App& command, double& accuracy, const std::string& of) {
 }
 
 void add_effort(CLI::App& command, fem::RadiositySettings& s) {
-  add_effort(command, {s.form_factors, s.row_tolerance, s.samples, s.resolution, s.visibility_rays},
-             "none: --quadrature-tolerance");
+  add_row_tolerance(command, s.row_tolerance)->default_str("none: --quadrature-tolerance");
+  add_effort(command, EffortOptions{s.form_factors, s.samples, s.resolution, s.visibility_rays});
 }
 
 void add_effort(CLI::App& command, ViewFactorOptions& o) {
-  add_effort(command, {o.form_factors, o.tolerance, o.samples, o.resolution, o.visibility_rays});
+  add_row_tolerance(command, o.tolerance);
+  add_effort(command, EffortOptions{o.form_factors, o.samples, o.resolution, o.visibility_rays});
 }
 
 void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
@@ -266,6 +268,22 @@ void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
   add_drop_below(command, s.drop_below);
   add_effort(command, s);
   add_forecast(command, options.forecast_only, out);
+}
+
+void add_shooting(CLI::App& command, fem::RadiositySettings& s) {
+  add_element_size(command, s.element_size, "that of solve");
+  add_max_memory(command, s.max_memory);
+  add_form_factors(command, s.form_factors);
+  add_quadrature_tolerance(command, s.quadrature_tolerance, "an unoccluded form factor");
+  add_effort(command, EffortOptions{s.form_factors, s.samples, s.resolution, s.visibility_rays});
+  command.add_option("--solver", s.solver, "The brightest shoots what it has, or what makes its residual 0")
+      ->check(CLI::IsMember({"progressive", "southwell"}))
+      ->capture_default_str();
+  add_overshoot(command, s.solver_settings.overshoot);
+  command.add_option("--unshot", s.stopping.unshot, "Unshot light, over all that is emitted, at which it stops")
+      ->transform(fraction())
+      ->default_str("1%");
+  add_intersector(command, s.intersector, "Ray caster; brute is slow, double precision, for checking");
 }
 
 void add_equations(CLI::App& command, fem::RadiositySettings& s) {

@@ -41,6 +41,9 @@ void add_effort(CLI::App& command, ViewFactorOptions& options);
 /// @param out  where the results go
 void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out);
 
+/// Elements and form factors of progressive refinement, and when it stops.
+void add_shooting(CLI::App& command, fem::RadiositySettings& settings);
+
 /// Elements and form factors, and when a solver stops: all that equations are made by, but for what they are for.
 void add_equations(CLI::App& command, fem::RadiositySettings& settings);
 

@@ -90,6 +90,14 @@ struct CompareSolversOptions {
   std::vector<std::string> solvers;  ///< empty: all
 };
 
+struct ShootOptions {
+  std::filesystem::path scene, out;
+  fem::RadiositySettings settings;
+  int every = 0;        ///< shots, after which there is a look; 0: at the end alone
+  bool resume = false;  ///< from the checkpoint of an earlier run
+  bool pictures = true;
+};
+
 struct ExchangeOptions {
   std::filesystem::path scene, out;
   fem::RadiositySettings settings;

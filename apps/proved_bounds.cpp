@@ -70,7 +70,7 @@ double proved_error(const SolvedScene& solved, const ProvedBounds& bounds, const
 std::string bounds_text(const SolvedScene& solved, const ProvedBounds& bounds) {
   const Widths mean = widths_of(solved, bounds.enclosure);
   return core::format("bounds      elements' mean irradiance is known within %s (mean of all, guaranteed); %s\n",
-                      core::format_percent(mean.half_width / mean.irradiance).c_str(),
+                      core::format_percent(core::rounded_up(mean.half_width / mean.irradiance, 3)).c_str(),
                       core::format_duration(bounds.seconds).c_str());
 }
 

@@ -24,7 +24,7 @@ std::unique_ptr<ProvedBounds> proved_bounds(const SolvedScene& solved, double ma
 /// How far the truth of a sensor's mean may be from a number, weighed over the channels.
 double proved_error(const SolvedScene& solved, const ProvedBounds& bounds, const std::string& sensor, double mean);
 
-/// "bounds      mean irradiance of elements within 3.1 % (mean, guaranteed), found in 12 s"
+/// "bounds      elements' mean irradiance is known within 3.12 % (mean of all, guaranteed); 12 s"
 std::string bounds_text(const SolvedScene& solved, const ProvedBounds& bounds);
 results::Record bounds_record(const SolvedScene& solved, const ProvedBounds& bounds);
 

@@ -53,14 +53,16 @@ void add_bounds(const fem::Enclosure& enclosure, const std::vector<std::string>&
 std::vector<results::CellField> fields_of(const SolvedScene& solved) {
   const RadiositySolution& s = solved.solution;
   const auto& channels = solved.scene.channels;
-  std::vector<results::CellField> fields{results::spectrum_field("radiosity", s.radiosity, channels),
-                                         results::spectrum_field("irradiance", s.irradiance, channels),
-                                         results::spectrum_field("exitance", s.exitance, channels),
-                                         results::spectrum_field("reflectance", s.reflectance, channels),
-                                         results::spectrum_field("error", s.irradiance_error, channels),
-                                         results::spectrum_field("noise", s.irradiance_noise, channels),
-                                         results::spectrum_field("field_error", s.field_error, channels),
-                                         results::scalar_field("row_sum", s.row_sum)};
+  std::vector<results::CellField> fields{
+      results::spectrum_field("radiosity", s.radiosity, channels),
+      results::spectrum_field("irradiance", s.irradiance, channels),
+      results::spectrum_field("exitance", s.exitance, channels),
+      results::spectrum_field("reflectance", s.reflectance, channels),
+      results::spectrum_field("error", s.irradiance_error, channels),
+      results::spectrum_field("noise", s.irradiance_noise, channels),
+      results::spectrum_field("field_error", s.field_error, channels),
+  };
+  if (!s.row_sum.empty()) fields.push_back(results::scalar_field("row_sum", s.row_sum));
   if (solved.bounds) add_bounds(solved.bounds->enclosure, channels, fields);
   if (solved.residual) fields.push_back(results::spectrum_field("residual", solved.residual->of_elements, channels));
   for (results::CellField& ids : results::id_fields(s.mesh)) fields.push_back(std::move(ids));
@@ -114,23 +116,6 @@ std::string matrix_text(const RadiositySolution& s) {
     text += core::format("environment %s of what leaves elements, if all sent the same\n",
                          core::format_percent(fem::mean_environment(s)).c_str());
   return text;
-}
-
-std::string sensors_text(const SolvedScene& solved) {
-  if (solved.points.empty()) return "";
-  const std::string unit = solved.scene.irradiance_unit();
-  const fem::Goal* goal = solved.solution.adaptation ? &solved.solution.adaptation->goal : nullptr;
-  Table table({"sensor", "points", "min " + unit, "mean " + unit, "max " + unit, "U0"});
-  std::string means;
-  for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points)) {
-    table.add({s.sensor, std::to_string(s.points), core::format("%.4g", s.minimum), core::format("%.5g", s.mean),
-               core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity())});
-    if (goal && goal->name == s.sensor && !solved.bounds) continue;  // which is known better (adaptation_text)
-    std::optional<double> proved;
-    if (solved.bounds) proved = proved_error(solved, *solved.bounds, s.sensor, s.mean);
-    means += goal_line("E_avg(" + s.sensor + ")", s.mean, s.error, unit.c_str(), proved) + "\n";
-  }
-  return "\n" + table.text() + "\n" + means;
 }
 
 }  // namespace
@@ -223,23 +208,49 @@ void write_summary(const SolvedScene& solved, const SolveOptions& options, const
   results::write_json(options.out / "summary.json", summary_record(solved, options, common, run));
 }
 
-void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common,
-                    const Run& run) {
+void write_field(const SolvedScene& solved, const std::filesystem::path& folder, [[maybe_unused]] bool pictures) {
+  const RadiositySolution& s = solved.solution;
+  results::write_vtu(folder / "solution.vtu", s.mesh, fields_of(solved));
+  const auto field = smooth_field(s);
+  if (field) write_smooth_field(folder / "solution_smooth.vtu", *field, solved.scene);
+#ifdef INTERFLECT_WITH_VTK
+  if (pictures) write_field_pictures(solved, field ? &*field : nullptr, folder);
+#endif
+}
+
+void write_tables_and_field(const SolvedScene& solved, const std::filesystem::path& folder, bool pictures) {
   const RadiositySolution& s = solved.solution;
   const int channels = solved.scene.channel_count();
-  results::write_vtu(options.out / "solution.vtu", s.mesh, fields_of(solved));
-  const auto field = smooth_field(s);
-  if (field) write_smooth_field(options.out / "solution_smooth.vtu", *field, solved.scene);
   results::write_surfaces_csv(
-      options.out / "surfaces.csv",
+      folder / "surfaces.csv",
       results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
   results::write_sensors_csv(
-      options.out / "sensors.csv", solved.points, solved.at_points, channels,
+      folder / "sensors.csv", solved.points, solved.at_points, channels,
       solved.bounds ? std::span<const Interval>(solved.bounds->at_points) : std::span<const Interval>());
+  write_field(solved, folder, pictures);
+}
+
+void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common,
+                    const Run& run) {
   write_summary(solved, options, common, run);
-#ifdef INTERFLECT_WITH_VTK
-  if (options.pictures) write_field_pictures(solved, field ? &*field : nullptr, options.out);
-#endif
+  write_tables_and_field(solved, options.out, options.pictures);
+}
+
+std::string sensors_text(const SolvedScene& solved) {
+  if (solved.points.empty()) return "";
+  const std::string unit = solved.scene.irradiance_unit();
+  const fem::Goal* goal = solved.solution.adaptation ? &solved.solution.adaptation->goal : nullptr;
+  Table table({"sensor", "points", "min " + unit, "mean " + unit, "max " + unit, "U0"});
+  std::string means;
+  for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points)) {
+    table.add({s.sensor, std::to_string(s.points), core::format("%.4g", s.minimum), core::format("%.5g", s.mean),
+               core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity())});
+    if (goal && goal->name == s.sensor && !solved.bounds) continue;  // which is known better (adaptation_text)
+    std::optional<double> proved;
+    if (solved.bounds) proved = proved_error(solved, *solved.bounds, s.sensor, s.mean);
+    means += goal_line("E_avg(" + s.sensor + ")", s.mean, s.error, unit.c_str(), proved) + "\n";
+  }
+  return "\n" + table.text() + "\n" + means;
 }
 
 std::string solution_text(const SolvedScene& solved) {

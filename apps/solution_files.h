@@ -18,9 +18,16 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
                                const Run& run);
 void write_summary(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common, const Run& run);
 
+/// solution.vtu alone, and with surfaces.csv and sensors.csv; the pictures where they are wanted.
+void write_field(const SolvedScene& solved, const std::filesystem::path& folder, bool pictures);
+void write_tables_and_field(const SolvedScene& solved, const std::filesystem::path& folder, bool pictures);
+
 /// solution.vtu, surfaces.csv, sensors.csv, summary.json and the pictures, into options.out.
 void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common,
                     const Run& run);
+
+/// Sensors, a line each, and their means with errors; nothing where there are none.
+std::string sensors_text(const SolvedScene& solved);
 
 /// The short table of a solve: elements, energy, error, sensors, time of each stage.
 std::string solution_text(const SolvedScene& solved);

@@ -17,12 +17,6 @@ namespace {
 constexpr double noticeable_on_backs = 1e-3;   ///< of the emitted flux: docs/scene.md promises a warning above it
 constexpr double noticeable_imbalance = 5e-3;  ///< of the emitted flux, lost or made by form factors
 
-std::vector<Estimate> answer_points(const SolvedScene& solved, Run& run) {
-  std::vector<measure::Measurement> asked;
-  for (const measure::SensorPoint& point : solved.points) asked.emplace_back(point.at);
-  return solved.method().answer(solved.scene, asked, run);
-}
-
 /// K of a file, for the geometry that it is of.
 auto factors_from(const std::filesystem::path& file) {
   return [file](const scene::Scene& scene, std::span<const scene::SurfacePatch> elements, fem::ExchangeSink& sink) {
@@ -35,6 +29,16 @@ auto factors_from(const std::filesystem::path& file) {
     store.require_geometry(results::geometry_digest(scene, elements));
     results::for_pairs(store, [&](Index a, Index b, double K, double error) { sink.add(a, b, {K, 0, error}); });
   };
+}
+
+/// With what the scene has to say to them.
+fem::RadiositySettings settings_of(const SolveOptions& options, const scene::Scene& scene,
+                                   std::span<const measure::SensorPoint> points) {
+  fem::RadiositySettings settings = options.settings;
+  if (options.target_error > 0 || !options.goal.empty())
+    settings.adaptive = {goal_named(options.goal, scene, points), options.target_error};
+  if (!options.factors.empty()) settings.stored_factors = factors_from(options.factors);
+  return settings;
 }
 
 /// Sensors none of whose points sees any light.
@@ -88,6 +92,12 @@ std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, c
   return warnings;
 }
 
+void answer_sensors(SolvedScene& solved, Run& run) {
+  std::vector<measure::Measurement> asked;
+  for (const measure::SensorPoint& point : solved.points) asked.emplace_back(point.at);
+  solved.at_points = solved.method().answer(solved.scene, asked, run);
+}
+
 std::string describe(const fem::Forecast& forecast) {
   return core::format("%s elements, %s, about %s",
                       core::format_count(static_cast<unsigned long long>(forecast.elements)).c_str(),
@@ -101,18 +111,19 @@ results::Record forecast_record(const fem::Forecast& forecast) {
 }
 
 ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
-  const fem::Forecast forecast = fem::forecast(read_and_note(options.scene), options.settings, run);
-  std::printf("%s\n", common.json ? results::json_text(forecast_record(forecast)).c_str() : describe(forecast).c_str());
+  const scene::Scene scene = read_and_note(options.scene);
+  const fem::Forecast forecast = fem::forecast(scene, settings_of(options, scene, measure::sensor_points(scene)), run);
+  if (common.json)
+    std::printf("%s\n", results::json_text(forecast_record(forecast)).c_str());
+  else
+    std::printf("%s%s\n", options.target_error > 0 ? "first pass: " : "", describe(forecast).c_str());
   return success;
 }
 
 std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions& options, const CommonOptions& common,
                                          Run& asked) {
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
-  fem::RadiositySettings settings = options.settings;
-  if (options.target_error > 0 || !options.goal.empty())
-    settings.adaptive = {goal_named(options.goal, scene, points), options.target_error};
-  if (!options.factors.empty()) settings.stored_factors = factors_from(options.factors);
+  const fem::RadiositySettings settings = settings_of(options, scene, points);
   const fem::Forecast forecast = fem::forecast(scene, settings, asked);
   auto folder = std::make_unique<results::OutputDirectory>(options.out);
   if (!common.json && !common.quiet)
@@ -130,7 +141,7 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
   solved->folder = std::move(folder);
   solved->points = std::move(points);
   solved->rays = raycast::make_ray_caster(options.settings.intersector, solved->scene);
-  solved->at_points = answer_points(*solved, run);
+  answer_sensors(*solved, run);
   solved->warnings = lines_of(solved->scene.warnings);
   for (const std::string& warning : warnings_of(*solved)) {
     core::log::warning(warning);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 
 namespace interflect::core {
 
@@ -34,6 +35,14 @@ std::string format_duration(double seconds) {
 }
 
 std::string format_percent(double part) { return std::isfinite(part) ? format("%.2f %%", 100 * part) : "-"; }
+
+double rounded_up(double value, int digits) {
+  if (!(value > 0) || !std::isfinite(value)) return value;
+  const double told = std::strtod(format("%.*g", digits, value).c_str(), nullptr);
+  if (told >= value) return told;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1);
+  return std::strtod(format("%.*g", digits, told + unit).c_str(), nullptr);
+}
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

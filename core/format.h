@@ -16,6 +16,9 @@ std::string format_duration(double seconds);
 /// "12.34 %" of a part such as 0.1234; "-" where there is none (not a number, infinite).
 std::string format_percent(double part);
 
+/// The least number of so many significant digits that is not below a positive one: how bounds are told.
+double rounded_up(double value, int digits);
+
 /// ASCII letters in lower case, all else as it is: for extensions and names that differ in case alone.
 std::string lower_case(std::string text);
 

@@ -26,7 +26,10 @@ Threads::Threads(unsigned count)
 Threads::~Threads() = default;
 
 void Threads::run_tasks(Index tasks, const std::function<void(Index)>& body) const {
-  backend_->arena.execute([&] { tbb::parallel_for(Index{0}, tasks, body, tbb::simple_partitioner{}); });
+  // A thread that waits for the rest of these tasks takes none of another loop's: it may hold what that one waits for.
+  backend_->arena.execute([&] {
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(Index{0}, tasks, body, tbb::simple_partitioner{}); });
+  });
 }
 
 }  // namespace interflect::core

@@ -34,7 +34,8 @@ NodeOperator continuous_galerkin(const SymmetricOperator& K, const NodeSet& node
   const Eigen::Map<const Eigen::VectorXd> G(K.gram().data(), K.size());
   const Eigen::SparseMatrix<double> P = nodes.P, M = P.transpose() * G.asDiagonal() * P;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(M);
-  if (factors.info() != Eigen::Success)
+  constexpr double dependent = 1e-12;  // of the largest pivot: rounding leaves less than nothing, or hardly more
+  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > dependent * factors.vectorD().maxCoeff()))
     throw core::PreconditionError("continuous_galerkin: corners' functions depend on each other: quads need order 2");
   const Eigen::MatrixXd KP = applied(K, nodes.P, run);
   return NodeOperator(ColumnMatrix(factors.solve(P.transpose() * KP)));

@@ -24,21 +24,6 @@ Spectrum root_mean_square(const mesh::ElementMesh& mesh, std::span<const Spectru
   return sqrt(sum / area);
 }
 
-Spectrum area_mean(const mesh::ElementMesh& mesh, std::span<const Spectrum> values) {
-  Spectrum sum;
-  double area = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    sum += mesh.patches()[i].area * values[i];
-    area += mesh.patches()[i].area;
-  }
-  return sum / area;
-}
-
-/// rho / (1 - rho) with the mean rho: all bounces after the first.
-Spectrum later_bounces(const RadiositySolution& s) {
-  return area_mean(s.mesh, s.reflectance).map([](double rho) { return rho / (1.0 - rho); });
-}
-
 /// |G^-1 K (B_h - P B_2h)|.
 std::vector<Spectrum> halving_differences(const RadiositySolution& s, const SymmetricOperator& K, int channels,
                                           Run& run) {
@@ -229,6 +214,20 @@ void add_field(RadiositySolution& s, const ErrorSources& from, Run& run) {
 }
 
 }  // namespace
+
+Spectrum area_mean(const mesh::ElementMesh& mesh, std::span<const Spectrum> values) {
+  Spectrum sum;
+  double area = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += mesh.patches()[i].area * values[i];
+    area += mesh.patches()[i].area;
+  }
+  return sum / area;
+}
+
+Spectrum later_bounces(const RadiositySolution& s) {
+  return area_mean(s.mesh, s.reflectance).map([](double rho) { return rho / (1.0 - rho); });
+}
 
 Spectrum irradiance_variation(const RadiositySolution& s, std::size_t element) {
   if (s.field) return s.field->irradiance_variation(element);

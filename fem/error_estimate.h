@@ -59,6 +59,12 @@ struct ErrorSources {
 /// Test: tests/fem/error_estimate.cpp, by coverage.
 void estimate_errors(RadiositySolution& solution, const ErrorSources& from, int channels, Run& run);
 
+/// By area.
+Spectrum area_mean(const mesh::ElementMesh& mesh, std::span<const Spectrum> values);
+
+/// rho / (1 - rho) with the mean rho by area: what all bounces after the first bring, if light spreads evenly.
+Spectrum later_bounces(const RadiositySolution& solution);
+
 /// Root mean square of irradiance inside an element about its mean, from its siblings as above; of polynomials, theirs.
 Spectrum irradiance_variation(const RadiositySolution& solution, std::size_t element);
 

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "fem/goal/adaptive_elements.h"
 #include "fem/method_trial.h"
 #include "fem/radiosity_operator.h"
 #include "fem/space/polynomials.h"
@@ -13,7 +14,7 @@ namespace interflect::fem {
 
 namespace {
 
-constexpr double default_elements = 2500, most_elements_to_mesh = 200'000;
+constexpr double default_elements = 2500, most_elements_to_mesh = 200'000, bytes_an_element = 4000;
 
 using Granularity = FormFactorMethod::Granularity;
 
@@ -38,13 +39,15 @@ double bytes_at_nodes(double elements, const RadiositySettings& settings, double
   return 8 * nodes * (nodes + products);
 }
 
+/// @param settings  of the order that blocks have (order_of_blocks)
+///
 /// Of polynomials K of constants and of all functions; else K and its errors (8 and at most 4 bytes a pair), with the coarse mesh's K (a sixteenth of its entries); sparse: at
 /// most N / drop_below pairs of 20 bytes while they come, 16 afterwards, and a coarse K of as many entries or a
 /// sixteenth of all.  And what each element carries.
 double predicted_bytes(double elements, const RadiositySettings& settings, Granularity granularity) {
   const double pairs = 0.5 * elements * elements, on_the_way = pairs * bytes_a_pair_on_the_way(granularity),
-               others = 4000.0 * elements;
-  const int order = at_corners(settings.projection) ? 2 : settings.order;  // as with quads
+               others = bytes_an_element * elements;
+  const int order = settings.order;
   const double an_entry = settings.form_factors == "analytic" ? 8 : 12, functions = plane_functions(order),
                at_nodes = bytes_at_nodes(elements, settings, functions);
   if (order > 0) return an_entry * (1 + functions * functions) * pairs + at_nodes + others;
@@ -55,7 +58,7 @@ double predicted_bytes(double elements, const RadiositySettings& settings, Granu
 
 /// By halving, since bytes grow with elements.
 double elements_in(double bytes, const RadiositySettings& settings, Granularity granularity) {
-  double low = 0, high = bytes / 4000.0;
+  double low = 0, high = bytes / bytes_an_element;
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = 0.5 * (low + high);
     (predicted_bytes(middle, settings, granularity) <= bytes ? low : high) = middle;
@@ -87,6 +90,11 @@ std::string way_out(const scene::Scene& scene, const RadiositySettings& settings
   return core::format("--element-size %g or more would fit", size);
 }
 
+RadiositySettings with_blocks(RadiositySettings settings, const mesh::ElementMesh& mesh) {
+  settings.order = order_of_blocks(settings, mesh.patches());
+  return settings;
+}
+
 /// What form factors of the very mesh need, by a short trial.
 struct Assembly {
   double seconds;  ///< on one thread
@@ -103,10 +111,11 @@ Assembly trial(const scene::Scene& scene, const RadiositySettings& settings, con
   const bool to_rows = settings.row_tolerance > 0;
   const auto method = make(to_rows ? entry_tolerance(settings.row_tolerance) : settings.quadrature_tolerance);
   const auto elements = static_cast<double>(mesh.size());
-  require_memory(scene, elements, settings, method->granularity());
+  const RadiositySettings of_blocks = with_blocks(settings, mesh);
+  require_memory(scene, elements, of_blocks, method->granularity());
   double seconds = 0.5 * elements * elements * seconds_per_pair(*method, mesh.patches(), run);
   if (to_rows) seconds += seconds_of_later_passes(make, settings.row_tolerance, mesh.patches(), AgainPart::rows, run);
-  return {seconds, predicted_bytes(elements, settings, method->granularity())};
+  return {seconds, predicted_bytes(elements, of_blocks, method->granularity())};
 }
 
 }  // namespace
@@ -135,13 +144,24 @@ mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings
   const double size = element_size_of(scene, settings), about = predicted_elements(scene, size);
   if (about > most_elements_to_mesh) require_memory(scene, about, settings, Granularity::pair);
   mesh::ElementMesh mesh = mesh::quartered(mesh::uniform(scene, 2.0 * size));
-  require_memory(scene, static_cast<double>(mesh.size()), settings, Granularity::pair);
+  require_memory(scene, static_cast<double>(mesh.size()), with_blocks(settings, mesh), Granularity::pair);
   return mesh;
+}
+
+mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySettings& settings) {
+  const double size = element_size_of(scene, settings), bytes = bytes_an_element * predicted_elements(scene, size);
+  if (bytes > settings.max_memory)
+    throw core::InputError(
+        core::format("elements of %g m need %s, more than the %s allowed: --element-size %g or more would fit", size,
+                     core::format_bytes(bytes).c_str(), core::format_bytes(settings.max_memory).c_str(),
+                     size_for(scene, settings.max_memory / bytes_an_element / 1.2)));
+  return mesh::quartered(mesh::uniform(scene, 2.0 * size));
 }
 
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
   require_compatible(settings);
-  const mesh::ElementMesh mesh = elements_of(scene, settings);  // costs little beside what is forecast
+  const mesh::ElementMesh mesh = settings.adaptive ? first_elements(scene, settings, *settings.adaptive)
+                                                   : elements_of(scene, settings);  // little beside what is forecast
   const auto elements = static_cast<double>(mesh.size());
   if (elements == 0) return {};
   const double pairs = 0.5 * elements * elements;

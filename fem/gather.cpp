@@ -144,15 +144,14 @@ GatheredElement Gather::sampled(const Receiver& at, const Unproved& element, dou
 
 Gathered Gather::operator()(const measure::PointIrradiance& at, std::uint64_t key,
                             std::span<const double> importance) const {
-  const Vec3 local = at.position - shapes_.origin(), u = at.normal.unitOrthogonal(), v = at.normal.cross(u);
-  const double size = 8 * shapes_.plane_tolerance();
+  const Vec3 local = at.position - shapes_.origin();
   const Receiver receiver{at.position,
                           at.normal,
                           at.on ? at.normal : Vec3::Zero(),
                           key,
                           {at.normal, at.normal.dot(local)},
                           local,
-                          {local + size * u, local + size * (-0.5 * u + 0.9 * v), local + size * (-0.5 * u - 0.9 * v)}};
+                          geometry::speck(local, at.normal, 8 * shapes_.plane_tolerance())};
   Gathered out;
   std::vector<Unproved> unproved = unproved_elements(receiver, out);
   double total = 0.0;

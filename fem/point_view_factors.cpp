@@ -89,7 +89,7 @@ class PointViewFactors::Receiver {
         x_(at.position - of.shapes_.origin()),
         n_(at.normal),
         horizon_{n_, n_.dot(x_)},
-        triangle_(around(x_, n_, 8 * rounding())),
+        triangle_(geometry::speck(x_, n_, 8 * rounding())),
         here_(0, triangle_, n_),
         hidden_(rounding()),
         hidden_moments_(rounding()) {}
@@ -107,11 +107,6 @@ class PointViewFactors::Receiver {
   }
 
  private:
-  /// What a shaft can be made from: a triangle too small to matter.
-  static std::array<Vec3, 3> around(const Vec3& x, const Vec3& n, double size) {
-    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
-    return {x + size * u, x + size * (-0.5 * u + 0.9 * v), x + size * (-0.5 * u - 0.9 * v)};
-  }
   double rounding() const { return of_.shapes_.plane_tolerance(); }
   geometry::Shaft shaft(std::span<const Vec3> ring) const { return geometry::Shaft(triangle_, ring, rounding()); }
 

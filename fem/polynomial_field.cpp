@@ -9,6 +9,12 @@ Spectrum PolynomialField::weighed(const solvers::ColumnMatrix& coefficients, Ind
   return sum;
 }
 
+Spectrum PolynomialField::sizes(const solvers::ColumnMatrix& coefficients, Index first, Index functions) {
+  Spectrum sum;
+  for (int c = 0; c < coefficients.cols(); ++c) sum[c] = coefficients.col(c).segment(first, functions).cwiseAbs().sum();
+  return sum;
+}
+
 Spectrum PolynomialField::value(const solvers::ColumnMatrix& coefficients, std::size_t element, const Vec3& x) const {
   const PlaneBasis::Values N = bases[element].at(x);
   return weighed(coefficients, static_cast<Index>(element) * functions,

@@ -31,6 +31,8 @@ struct PolynomialField {
   Spectrum irradiance_variation(std::size_t element) const;
   /// sum_a w_a c_a of an element: w are what its functions are worth.
   static Spectrum weighed(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
+  /// sum_a |c_a| of an element's.
+  static Spectrum sizes(const solvers::ColumnMatrix& coefficients, Index first, Index functions);
 
  private:
   Spectrum value(const solvers::ColumnMatrix& coefficients, std::size_t element, const Vec3& x) const;

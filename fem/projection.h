@@ -12,7 +12,7 @@ enum class Projection : std::uint8_t {
   continuous,    ///< likewise, of functions that are continuous over each side of a surface, linear between corners
   gauss_points,  ///< at Gauss points of elements (collocation)
   vertices,      ///< at corners, of the same functions as `continuous` (collocation)
-  centroids      ///< at elements' centroids, of constants (collocation)
+  centroids      ///< at the middles of elements' corners, of constants (collocation)
 };
 
 /// "galerkin", "continuous", "gauss-points", "vertices", "centroids".

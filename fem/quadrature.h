@@ -45,8 +45,8 @@ struct RulePair {
   Rule triangle, quad;
   const Rule& of(std::size_t corners) const { return corners == 3 ? triangle : quad; }
 };
-/// Quads by points² Gauss nodes, triangles by the rule of the same order of convergence: degree 2 points - 1 rounded up
-/// to the next positive rule; 1 <= points <= 4.
+/// Quads by points² Gauss nodes, triangles by the rule of degree 1, 4, 6 or 8: no worse, with positive weights;
+/// 1 <= points <= 4.
 RulePair rules_of(int points);
 
 /// Position at (u, v): affine on two corners (by u alone) and three, bilinear on four, as mesh::ElementPoint counts them.

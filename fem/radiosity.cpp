@@ -161,6 +161,8 @@ void require_compatible_projection(const RadiositySettings& settings) {
     throw core::InputError("unknowns that are values at nodes", "they do not go with " + what);
   };
   if (settings.adaptive) refuse("elements made for a goal");
+  if (solvers::solver_named(settings.solver).needs != solvers::SolverEntry::Needs::products)
+    refuse("solver '" + settings.solver + "', which wants more than products: 'automatic' or 'gmres' would do");
   if (settings.projection == Projection::centroids && settings.order != 0)
     refuse("polynomials: at centroids there are constants, of order 0");
   if (at_corners(settings.projection) && settings.order != 1)

@@ -49,6 +49,9 @@ double element_size_of(const scene::Scene& scene, const RadiositySettings& setti
 /// @throws core::InputError  where they need more memory than `max_memory`, saying which element size would fit
 mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings);
 
+/// The same where no matrix is stored: by what elements carry themselves.
+mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySettings& settings);
+
 /// Of the polynomials that K is made for; between the corners of quads one that holds what is bilinear.
 int order_of_blocks(const RadiositySettings& settings, std::span<const scene::SurfacePatch> patches);
 
@@ -58,7 +61,7 @@ std::unique_ptr<solvers::RadiositySolver> solver_of(const RadiositySettings& set
 /// @throws core::InputError  where settings do not go together: what polynomials of order 1 and more cannot have, yet
 void require_compatible(const RadiositySettings& settings);
 
-/// What a solve will need, said before it starts.
+/// What a solve will need, said before it starts; where elements are made for a goal, its first pass.
 struct Forecast {
   double elements, bytes, seconds;
 };

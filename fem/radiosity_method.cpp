@@ -175,12 +175,12 @@ Estimate Answers::operator()(const measure::Flux& asked) const {
   return arriving_on(std::move(tiles), face_one_way(asked.through));
 }
 
-/// Of polynomials: the iterated value without noise, less the same of the order below.
+/// Of polynomials: the iterated value, whose last bounce has no noise, less the same of the order below.
 Estimate Answers::by_polynomials(const measure::PointIrradiance& asked) const {
   const PolynomialField& field = *s_.field;
   std::vector<double> F(static_cast<std::size_t>(field.radiosity.rows())), rounding(s_.mesh.size());
   (*exact_)(asked, F, rounding);
-  Spectrum value, below, sizes, from_elements;
+  Spectrum value, below, sizes, from_elements, own_variance, shared;
   const auto functions = static_cast<std::size_t>(field.functions);
   for (std::size_t j = 0; j < rounding.size(); ++j) {
     const std::span<const double> of_j = std::span<const double>(F).subspan(j * functions, functions);
@@ -190,12 +190,16 @@ Estimate Answers::by_polynomials(const measure::PointIrradiance& asked) const {
     value += mine;
     below += before;
     sizes += abs(mine - before);
-    from_elements += of_j[0] * (s_.reflectance[j] * s_.irradiance_error[j]) + rounding[j] * s_.radiosity[j];
+    const Spectrum rho = s_.reflectance[j];
+    from_elements += of_j[0] * (rho * s_.irradiance_error[j]) +
+                     rounding[j] * PolynomialField::sizes(field.radiosity, first, field.functions);
+    own_variance += of_j[0] * of_j[0] * (rho * rho * s_.own_variance(j));
+    shared += of_j[0] * (rho * s_.shared_noise);
   }
   const Spectrum difference = abs(value - below);
   Spectrum error = from_elements;
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(difference[c], 0.05 * sizes[c]);
-  return {value, Spectrum(), error, Claim::estimated, 0};
+  return {value, sqrt(own_variance + shared * shared), error, Claim::estimated, 0};
 }
 
 Estimate Answers::operator()(const measure::PointIrradiance& asked) const {
@@ -232,13 +236,15 @@ Estimate Answers::radiosity_at(std::size_t i, const scene::SurfacePoint& x) cons
 
 Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
   const int side = pixel_.side;
+  const bool alone = side == 1;  // through the middle of the pixel, whose radiance it is then
   const scene::Camera& camera = scene_.camera(asked.camera);
   core::RandomNumbers random(core::derived_seed(seed_, "pixels"), 0, key_of(asked));
   core::Moments radiance;
   Spectrum error;
   for (int k = 0; k < side * side; ++k) {
     const int column = k % side, row = k / side;
-    const double x = asked.x + (column + random.next()) / side, y = asked.y + (row + random.next()) / side;
+    const double in_column = alone ? 0.5 : random.next(), in_row = alone ? 0.5 : random.next();
+    const double x = asked.x + (column + in_column) / side, y = asked.y + (row + in_row) / side;
     const auto hit = rays_.closest({camera.eye, camera.direction(x, y)});
     const auto element = hit ? s_.mesh.locate(*hit) : std::nullopt;
     if (!element) {

@@ -7,7 +7,7 @@ namespace interflect::fem {
 
 /// How a pixel is looked at.
 struct PixelRays {
-  int side = 4;         ///< side x side rays, one in each cell
+  int side = 4;         ///< side x side rays, one in each cell; of 1 the pixel's middle, and not its mean, is answered
   bool gather = false;  ///< where they hit, the iterated radiosity E + rho T B_h in place of B_h: shadows as they are
 };
 

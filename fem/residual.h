@@ -9,8 +9,8 @@ namespace interflect::fem {
 ///   r = E + rho T B_h - B_h,     B - B_h = (1 - rho T)^-1 r,
 ///   ||B - B_h||_2 <= ||r||_2 / (1 - max rho),     max |B - B_h| <= max |r| / (1 - max rho)
 ///
-/// since neither norm of T exceeds 1: it averages, and is its own adjoint (rows and columns of F add up to 1 at most).
-/// T B_h is found in closed form past whatever hides, at 16 Gauss points of a quad and of a triangle: what is rough between
+/// since neither norm of T exceeds 1: int k(x, y) dy <= 1 at every x, and k is symmetric, so that int k(x, y) dx <= 1 at every
+/// y too.  T B_h is found past whatever hides, in closed form of what is near, at 16 Gauss points of a quad and of a triangle: what is rough between
 /// them is not seen, so that the norms are estimates.  Bounds that hold for certain are an Enclosure's.
 struct ResidualNorms {
   std::vector<Spectrum> of_elements;  ///< root mean square of r over each

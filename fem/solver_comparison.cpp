@@ -70,9 +70,7 @@ double relative_error(const ColumnMatrix& x, const ColumnMatrix& y, std::span<co
 
 SolverScore score(const std::string& name, const solvers::System& system, const ColumnMatrix& solution,
                   const RadiositySettings& settings, Run& run) {
-  SolverScore out{name, false, {}, ""};
-  for (const solvers::SolverEntry& each : solvers::known_solvers())
-    if (each.name == name) out.samples = each.samples;
+  SolverScore out{name, solvers::solver_named(name).samples(), {}, ""};
   solvers::SolverSettings of_solver = settings.solver_settings;
   if (of_solver.steps == 0) of_solver.steps = static_cast<int>(std::max<Index>(1, system.e.rows() / 50));
   solvers::SolverState state{system.e};

@@ -103,4 +103,11 @@ class Shaft {
   double margin_ = 0;  ///< [m]
 };
 
+/// What a shaft is made from where one end is a point: a triangle about it, across the normal, too small to matter; no
+/// corner is farther than `size`.
+inline std::array<Vec3, 3> speck(const Vec3& x, const Vec3& normal, double size) {
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  return {x + size * u, x + size * (-0.5 * u + 0.8 * v), x + size * (-0.5 * u - 0.8 * v)};
+}
+
 }  // namespace interflect::geometry

@@ -1,38 +1,8 @@
 #include "results/factors.h"
 
-#include <bit>
-
-#include "core/format.h"
+#include "results/digest.h"
 
 namespace interflect::results {
-
-namespace {
-
-/// Two lanes of 64 bits, each word stirred into both: MurmurHash3's finaliser over a multiply-and-rotate chain.
-class Digest {
- public:
-  void add(std::uint64_t word) {
-    a_ = stir(a_ ^ word * 0x9E3779B97F4A7C15u);
-    b_ = stir(std::rotl(b_, 29) + word * 0xC2B2AE3D27D4EB4Fu + a_);
-  }
-  void add(const Vec3& x) {
-    for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(x[axis] + 0.0));  // -0 is 0
-  }
-  std::string text() const {
-    return core::format("%016llx%016llx", static_cast<unsigned long long>(a_), static_cast<unsigned long long>(b_));
-  }
-
- private:
-  static std::uint64_t stir(std::uint64_t h) {
-    h = (h ^ (h >> 33)) * 0xFF51AFD7ED558CCDu;
-    h = (h ^ (h >> 33)) * 0xC4CEB9FE1A85EC53u;
-    return h ^ (h >> 33);
-  }
-
-  std::uint64_t a_ = 1, b_ = 2;
-};
-
-}  // namespace
 
 FactorElements factor_elements(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches) {
   FactorElements out;

@@ -53,27 +53,32 @@ std::unique_ptr<RadiositySolver> stochastic_jacobi(const SolverSettings& setting
 }  // namespace
 
 const std::vector<SolverEntry>& known_solvers() {
+  using Needs = SolverEntry::Needs;
   static const std::vector<SolverEntry> all{
-      {"automatic", "conjugate gradients, or gmres where the operator is not symmetric", false, plain<Automatic>},
-      {"conjugate-gradients", "on the symmetrised operator: few iterations at any reflectance", false,
+      {"automatic", "conjugate gradients, or gmres where the operator is not symmetric", Needs::products,
+       plain<Automatic>},
+      {"conjugate-gradients", "on the symmetrised operator: few iterations at any reflectance", Needs::symmetry,
        plain<ConjugateGradients>},
-      {"gmres", "least residuals: for operators that are not symmetric, as collocation's", false, gmres},
-      {"jacobi", "one bounce of light an iteration", false, plain<Jacobi>},
-      {"gauss-seidel", "row after row with the newest values: half as many sweeps", false, plain<GaussSeidel>},
-      {"symmetric-gauss-seidel", "over all rows and back", false, symmetric_gauss_seidel},
-      {"over-relaxation", "Gauss-Seidel's steps times --relaxation", false, over_relaxation},
-      {"southwell", "the largest residual first", false, southwell},
-      {"progressive", "the brightest shoots what it has: a picture after every step", false, progressive},
-      {"stochastic-jacobi", "bounces by rays, in proportion to the power", true, stochastic_jacobi<false>},
-      {"regular-stochastic-jacobi", "the same, and then bounces of all that there is", true, stochastic_jacobi<true>},
-      {"shooting-collision", "random walks from what shines, scored at every hit", true,
+      {"gmres", "least residuals: for operators that are not symmetric, as collocation's", Needs::products, gmres},
+      {"jacobi", "one bounce of light an iteration", Needs::products, plain<Jacobi>},
+      {"gauss-seidel", "row after row with the newest values: half as many sweeps", Needs::products,
+       plain<GaussSeidel>},
+      {"symmetric-gauss-seidel", "over all rows and back", Needs::products, symmetric_gauss_seidel},
+      {"over-relaxation", "Gauss-Seidel's steps times --relaxation", Needs::products, over_relaxation},
+      {"southwell", "the largest residual first", Needs::symmetry, southwell},
+      {"progressive", "the brightest shoots what it has: a picture after every step", Needs::symmetry, progressive},
+      {"stochastic-jacobi", "bounces by rays, in proportion to the power", Needs::walks, stochastic_jacobi<false>},
+      {"regular-stochastic-jacobi", "the same, and then bounces of all that there is", Needs::walks,
+       stochastic_jacobi<true>},
+      {"shooting-collision", "random walks from what shines, scored at every hit", Needs::walks,
        walks<Way::shooting, Score::collision>},
-      {"shooting-survival", "the same, scored where they go on", true, walks<Way::shooting, Score::survival>},
-      {"shooting-absorption", "the same, scored where they end", true, walks<Way::shooting, Score::absorption>},
-      {"gathering-collision", "random walks from every element, scored at every hit", true,
+      {"shooting-survival", "the same, scored where they go on", Needs::walks, walks<Way::shooting, Score::survival>},
+      {"shooting-absorption", "the same, scored where they end", Needs::walks, walks<Way::shooting, Score::absorption>},
+      {"gathering-collision", "random walks from every element, scored at every hit", Needs::walks,
        walks<Way::gathering, Score::collision>},
-      {"gathering-survival", "the same, scored where they go on", true, walks<Way::gathering, Score::survival>},
-      {"gathering-absorption", "the same, scored where they end", true, walks<Way::gathering, Score::absorption>},
+      {"gathering-survival", "the same, scored where they go on", Needs::walks, walks<Way::gathering, Score::survival>},
+      {"gathering-absorption", "the same, scored where they end", Needs::walks,
+       walks<Way::gathering, Score::absorption>},
   };
   return all;
 }
@@ -87,17 +92,21 @@ std::vector<std::string> solver_names() {
 std::vector<std::string> solver_names(bool samples) {
   std::vector<std::string> names;
   for (const SolverEntry& each : known_solvers())
-    if (each.samples == samples) names.push_back(each.name);
+    if (each.samples() == samples) names.push_back(each.name);
   return names;
 }
 
-std::unique_ptr<RadiositySolver> make_solver(const std::string& name, const SolverSettings& settings) {
+const SolverEntry& solver_named(const std::string& name) {
   std::string known;
   for (const SolverEntry& each : known_solvers()) {
-    if (each.name == name) return each.make(settings);
+    if (each.name == name) return each;
     known += (known.empty() ? "" : ", ") + each.name;
   }
   throw core::InputError("solver '" + name + "'", "one of " + known + " expected");
+}
+
+std::unique_ptr<RadiositySolver> make_solver(const std::string& name, const SolverSettings& settings) {
+  return solver_named(name).make(settings);
 }
 
 }  // namespace interflect::solvers

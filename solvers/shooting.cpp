@@ -12,18 +12,12 @@ namespace {
 
 constexpr Index chunk = 4096;  ///< unknowns that one thread updates: less is not worth waking another
 
-const RowAccess& symmetric_rows(const System& system, const std::string& solver) {
-  if (!system.K.symmetric())
-    throw core::InputError("solver '" + solver + "'", "a symmetric operator expected; use 'automatic' here");
-  return required_rows(system, solver);
-}
-
 }  // namespace
 
 Shooting::Shooting(const System& system, const std::string& solver, const ColumnMatrix& x, const ColumnMatrix& r,
                    const Run& run, double overshoot)
     : system_(system),
-      access_(symmetric_rows(system, solver)),
+      access_(required_columns(system, solver)),
       run_(run),
       overshoot_(overshoot),
       ahead_(Eigen::VectorXd::Zero(x.cols())),
@@ -38,15 +32,7 @@ Shooting::Shooting(const System& system, const std::string& solver, const Column
   spread(Eigen::VectorXd::Zero(columns()));
 }
 
-double Shooting::unshot_fraction() const {
-  const Eigen::Map<const Eigen::ArrayXd> G(system_.K.gram().data(), unknowns());
-  double largest = 0;
-  for (Index c = 0; c < columns(); ++c) {
-    const double all = (G * system_.e.col(c).array().abs()).sum();
-    if (all > 0) largest = std::max(largest, (G * r_.row(c).transpose().array().abs()).sum() / all);
-  }
-  return largest;
-}
+double Shooting::unshot_fraction() const { return solvers::unshot_fraction(system_, r_.transpose()); }
 
 double Shooting::relative_residual() const {
   double largest = 0;
@@ -136,6 +122,16 @@ void Shooting::find_brightest() {
   brightest_ = found.unknown;
 }
 
+double unshot_fraction(const System& system, ConstColumns unshot) {
+  const Eigen::Map<const Eigen::ArrayXd> G(system.K.gram().data(), unshot.rows());
+  double largest = 0;
+  for (Index c = 0; c < unshot.cols(); ++c) {
+    const double all = (G * system.e.col(c).array().abs()).sum();
+    if (all > 0) largest = std::max(largest, (G * unshot.col(c).array().abs()).sum() / all);
+  }
+  return largest;
+}
+
 Eigen::RowVectorXd ambient(const System& system, ConstColumns unshot) {
   const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), unshot.rows());
   const Eigen::RowVectorXd absorbing = G.sum() - (G * system.R.reflectance()).array();
@@ -147,7 +143,7 @@ Shooting begin_shooting(const System& system, const std::string& solver, const S
   const ColumnMatrix nothing = ColumnMatrix::Zero(state.x.rows(), state.x.cols());
   if (state.residual.size() > 0) return {system, solver, state.x, state.residual, run, overshoot};
   if (state.x == system.e) return {system, solver, nothing, system.e, run, overshoot};
-  symmetric_rows(system, solver);
+  required_columns(system, solver);
   return {system, solver, state.x, residual_of(system, state.x, run), run, overshoot};
 }
 

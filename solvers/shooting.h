@@ -8,13 +8,14 @@
 
 namespace interflect::solvers {
 
-/// A solve by rows of K, one unknown a step: x, and with it the residual r = e + R G^-1 K x - x, which is what light there
+/// A solve by columns of K, one unknown a step: x, and with it the residual r = e + R G^-1 K x - x, which is what light there
 /// is that was not shot yet.  A step from unknown i by d:
 ///
 ///   x_i += d,   r_i -= d,   r_a += rho_a / G_a K_ai d  for all a
 ///
-/// needs row i of a symmetric K alone, and leaves r true whatever d is.  Columns share rows: i is the unknown with the most
-/// power to shoot, the largest sum over the columns of G_i |r_i|; of equal ones the first.  It is found while r is updated.
+/// needs column i of K alone, which is row i where K is symmetric, and leaves r true whatever d is.  All columns of x share
+/// it: i is the unknown with the most power to shoot, the largest sum over them of G_i |r_i|; of equal ones the first.  It
+/// is found while r is updated.
 ///
 /// With overshooting what i has to shoot is r_i + s rho_i Amb, s the share asked for, where the ambient term
 ///
@@ -26,7 +27,7 @@ class Shooting {
  public:
   /// @param x, r       what there is already; r that of x
   /// @param overshoot  s
-  /// @throws core::InputError  as required_rows, and where K is not symmetric
+  /// @throws core::InputError  as required_columns
   Shooting(const System& system, const std::string& solver, const ColumnMatrix& x, const ColumnMatrix& r,
            const Run& run, double overshoot = 0);
 
@@ -35,7 +36,6 @@ class Shooting {
   Index brightest() const { return brightest_; }
   Eigen::VectorXd unshot(Index a) const { return r_.col(a); }
   Eigen::VectorXd to_shoot(Index a) const;
-  /// sum G |r| / sum G |e|, the largest of the columns that shine.
   double unshot_fraction() const;
   /// max |r| / max |x|, as StoppingRule wants it; 1 of a column that has not begun.
   double relative_residual() const;
@@ -82,6 +82,9 @@ SolverReport solve_by_steps(const System& system, const std::string& solver, Sol
 /// Where that begins.
 Shooting begin_shooting(const System& system, const std::string& solver, const SolverState& state, Run& run,
                         double overshoot = 0);
+
+/// sum G |r| / sum G |e|, the largest of the columns that shine.
+double unshot_fraction(const System& system, ConstColumns unshot);
 
 /// Amb of each column.
 Eigen::RowVectorXd ambient(const System& system, ConstColumns unshot);

@@ -81,13 +81,18 @@ class RadiositySolver {
 /// One that is known by name.
 struct SolverEntry {
   std::string name, summary;
-  bool samples;  ///< it needs System::walks, and its answers have standard errors
+  /// What it needs beside products with K: nothing; K symmetric; System::walks, and its answers have standard errors.
+  enum class Needs { products, symmetry, walks };
+  Needs needs;
+  bool samples() const { return needs == Needs::walks; }
   std::unique_ptr<RadiositySolver> (*make)(const SolverSettings&);
 };
 const std::vector<SolverEntry>& known_solvers();
+/// @throws core::InputError with the names known
+const SolverEntry& solver_named(const std::string& name);
 std::vector<std::string> solver_names();
 std::vector<std::string> solver_names(bool samples);  ///< of those that do, or of those that do not
-/// @throws core::InputError with the names known; where a setting is out of its range
+/// @throws core::InputError  as solver_named; where a setting is out of its range
 std::unique_ptr<RadiositySolver> make_solver(const std::string& name, const SolverSettings& settings = {});
 
 }  // namespace interflect::solvers

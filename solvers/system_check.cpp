@@ -66,20 +66,36 @@ void require_solvable(const System& system) {
   }
 }
 
+namespace {
+
+void require_diagonal(const System& system, const std::string& solver) {
+  if (!system.R.diagonal())
+    throw core::InputError("solver '" + solver + "'", "reflectance varies inside elements; use 'automatic' here");
+}
+
+}  // namespace
+
 const RowAccess& required_rows(const System& system, const std::string& solver) {
   const RowAccess* rows = system.K.rows();
   if (rows == nullptr)
     throw core::InputError("solver '" + solver + "'", "an operator with rows expected; use 'automatic' here");
-  if (!system.R.diagonal())
-    throw core::InputError("solver '" + solver + "'", "reflectance varies inside elements; use 'automatic' here");
+  require_diagonal(system, solver);
   return *rows;
+}
+
+const RowAccess& required_columns(const System& system, const std::string& solver) {
+  const RowAccess* columns = system.K.columns();
+  if (columns == nullptr)
+    throw core::InputError("solver '" + solver + "'",
+                           "a symmetric operator with rows, or one with columns, expected; use 'automatic' here");
+  require_diagonal(system, solver);
+  return *columns;
 }
 
 void require_walks(const System& system, const std::string& solver) {
   if (system.walks == nullptr)
     throw core::InputError("solver '" + solver + "'", "rays between elements of constants expected");
-  if (!system.R.diagonal())
-    throw core::InputError("solver '" + solver + "'", "reflectance varies inside elements; use 'automatic' here");
+  require_diagonal(system, solver);
 }
 
 bool prepare(const System& system, SolverState& state) {

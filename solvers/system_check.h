@@ -14,6 +14,8 @@ void require_solvable(const System& system);
 /// @throws core::InputError  where the operator has no rows, or reflectance varies inside elements: what solvers that go
 ///                           by rows cannot have
 const RowAccess& required_rows(const System& system, const std::string& solver);
+/// The same of its columns, for solvers that shoot.
+const RowAccess& required_columns(const System& system, const std::string& solver);
 
 /// @throws core::InputError  where the system has no walks of constants, or reflectance varies inside elements
 void require_walks(const System& system, const std::string& solver);

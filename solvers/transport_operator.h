@@ -14,12 +14,11 @@ using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen
 using Columns = Eigen::Ref<ColumnMatrix>;  ///< owned unknowns x (groups * channels)
 using ConstColumns = Eigen::Ref<const ColumnMatrix>;
 
-/// Rows of K, for solvers that need them: stored, or computed on demand.
+/// Rows of K, or its columns, for solvers that need them: stored, or computed on demand.
 class RowAccess {
  public:
   virtual ~RowAccess() = default;
-  /// Rows first .. first + count of K into `out` (count x unknowns).  Reentrant: solvers share a block of rows among
-  /// threads.
+  /// Rows first .. first + count into `out` (count x unknowns).  Reentrant: solvers share a block of rows among threads.
   virtual void rows(Index first, Index count, Columns out) const = 0;
   virtual Index evaluated() const = 0;  ///< rows handed out so far: the work in plots of error against work
 };
@@ -36,6 +35,8 @@ class TransportOperator {
   virtual std::span<const double> gram() const = 0;                     ///< diagonal of G [m²]
   virtual std::span<const double> self() const = 0;                     ///< K_aa [m²]
   virtual const RowAccess* rows() const { return nullptr; }
+  /// Columns of K, each as a row: what one unknown sends to all.  Solvers that shoot need them.
+  virtual const RowAccess* columns() const { return symmetric() ? rows() : nullptr; }
 };
 
 /// b = e + R h per channel; columns as in `Columns`.  Diagonal where reflectance is one number on an element.  Where it

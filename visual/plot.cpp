@@ -51,11 +51,11 @@ class Canvas {
       for (int i = static_cast<int>(x - radius) - 1; i <= static_cast<int>(x + radius) + 1; ++i)
         cover(i, j, std::clamp(radius + 0.5 - std::hypot(i - x, j - y), 0.0, 1.0), colour);
   }
-  void ring(double x, double y, double radius, double width, Colour colour) {
-    const double reach = radius + width;
+  void ring(double x, double y, double radius, double half_width, Colour colour) {
+    const double reach = radius + half_width;
     for (int j = static_cast<int>(y - reach); j <= static_cast<int>(y + reach) + 1; ++j)
       for (int i = static_cast<int>(x - reach); i <= static_cast<int>(x + reach) + 1; ++i)
-        cover(i, j, std::clamp(width + 0.5 - std::abs(std::hypot(i - x, j - y) - radius), 0.0, 1.0), colour);
+        cover(i, j, std::clamp(half_width + 0.5 - std::abs(std::hypot(i - x, j - y) - radius), 0.0, 1.0), colour);
   }
   void line(double x0, double y0, double x1, double y1, double radius, Colour colour) {
     const int steps = 1 + static_cast<int>(2 * std::hypot(x1 - x0, y1 - y0));

@@ -105,8 +105,8 @@ Cell Surroundings::cell_at(const Vec3& x, const Vec3& normal) const {
   cell.t = normal.cross(cell.s);
   cell.centre = x - shapes_.origin();
   cell.radius = 8 * shapes_.plane_tolerance();
-  const auto corner = [&](double s, double t) -> Vec3 { return cell.centre + cell.radius * (s * cell.s + t * cell.t); };
-  cell.ring = {corner(1, 0), corner(-0.5, 0.8), corner(-0.5, -0.8)};
+  const auto ring = geometry::speck(cell.centre, normal, cell.radius);
+  cell.ring = {ring[0], ring[1], ring[2]};
   cell.area = 1.2 * cell.radius * cell.radius;
   cell.second_moments = {};
   return cell;

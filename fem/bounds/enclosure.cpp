@@ -124,7 +124,7 @@ class Enclosure::Iteration {
     double before = infinity;
     for (int pass = 0; pass < most; ++pass) {
       run.throw_if_stopped("bounds");
-      slack_ = 1e-11 * B_.largest() + 1e-6 * largest_error();
+      slack_ = 1e-11 * B_.largest() + 1e-6 * largest_parts();
       ManyBounds next = g_;
       run.threads.for_blocks(elements_, 1, [&](Index element, Index) { improve(element, next); });
       g_ = std::move(next);
@@ -155,7 +155,7 @@ class Enclosure::Iteration {
       const auto k = static_cast<std::size_t>(j);
       const ColumnMatrix B = coefficients(j, functions);
       const Row sent = Eigen::Map<const Row>(&F[k * static_cast<std::size_t>(functions)], functions) * B,
-                doubt = rounding[k] * (field_ ? field_->bases[k].largest() : 1.0) * B.cwiseAbs().colwise().sum();
+                doubt = rounding[k] * B.cwiseAbs().colwise().sum();
       H.lower += sent - doubt;
       H.upper += sent + doubt;
     }
@@ -196,7 +196,8 @@ class Enclosure::Iteration {
     }
     return out;
   }
-  double largest_error() const {
+  /// The largest |r| there may be, and the largest |T e|.
+  double largest_parts() const {
     const double r = r_.everywhere.upper.cwiseMax(-r_.everywhere.lower).maxCoeff();
     return r + g_.upper.cwiseMax(-g_.lower).maxCoeff();
   }

@@ -31,8 +31,8 @@ namespace interflect::fem {
 /// Widths of e are O(h) about constants where the solution is smooth, since B varies by as much over an element, and
 /// O(h²) about linear functions; those of H anywhere in an element are O(h) in any case.
 /// They hold past whatever hides; what may be hidden in part is cut into smaller parts, and counts as anything from
-/// nothing to all of it.  Rounding alone is not proved: 1e-11 of the largest |B_h| and 1e-6 of the largest |T e| are
-/// added for it.  A scene counts as closed if no ray that leaves an element is lost, or no row sum lacks 1e-4.
+/// nothing to all of it.  Rounding alone is not proved: 1e-11 of the largest |B_h|, and 1e-6 of the largest |r| and the
+/// largest |T e| together, are added for it.  A scene counts as closed if no ray that leaves an element is lost, or no row sum lacks 1e-4.
 /// Test: tests/fem/bounds/enclosure.cpp
 class Enclosure {
  public:

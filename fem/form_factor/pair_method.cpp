@@ -57,25 +57,41 @@ PairMethod::PairMethod(const FormFactorContext& context)
     : context_(context),
       integrate_(context.patches, context.tolerance),
       clusters_(clusters_of(context.patches, integrate_.shapes())),
-      blockers_(context.scene, integrate_.shapes().origin(), integrate_.shapes().plane_tolerance()) {}
+      cluster_of_(context.patches.size()),
+      blockers_(context.scene, integrate_.shapes().origin(), integrate_.shapes().plane_tolerance()) {
+  for (std::size_t c = 0; c < clusters_.size(); ++c)
+    for (const Index i : clusters_[c].elements) cluster_of_[static_cast<std::size_t>(i)] = c;
+}
+
+std::vector<PairMethod::Part> PairMethod::parts_of(const ElementBlock& block) const {
+  const Index end = block.first + block.count;
+  std::vector<std::size_t> clusters;
+  for (Index i = block.first; i < end; ++i) {
+    const std::size_t c = cluster_of_[static_cast<std::size_t>(i)];
+    if (clusters.empty() || clusters.back() != c) clusters.push_back(c);
+  }
+  std::sort(clusters.begin(), clusters.end());
+  clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
+  std::vector<Part> parts;
+  for (const std::size_t c : clusters) {
+    const std::vector<Index>& all = clusters_[c].elements;
+    const auto begin = std::lower_bound(all.begin(), all.end(), block.first);
+    parts.push_back({clusters_[c], {begin, std::lower_bound(begin, all.end(), end)}});
+  }
+  return parts;
+}
 
 PairCounts PairMethod::exchange(const ElementBlock& rows, const ElementBlock& columns, ExchangeSink& sink,
                                 const Run& run) const {
   PairCounts counts;
   const std::unique_ptr<PairWork> of_thread = work();
-  const auto within = [](const ElementBlock& block, const ElementCluster& cluster) {
-    const auto begin = std::lower_bound(cluster.elements.begin(), cluster.elements.end(), block.first);
-    return std::span(begin, std::lower_bound(begin, cluster.elements.end(), block.first + block.count));
-  };
-  for (const ElementCluster& a : clusters_) {
-    const auto of_rows = within(rows, a);
-    if (of_rows.empty()) continue;
+  const std::vector<Part> of_columns = parts_of(columns);
+  for (const Part& a : parts_of(rows)) {
     run.throw_if_stopped("form factors");
-    for (const ElementCluster& b : clusters_) {
-      const auto of_columns = within(columns, b);
-      ClusterPair between(*this, a, b);
-      for (const Index i : of_rows)
-        for (const Index j : of_columns)
+    for (const Part& b : of_columns) {
+      ClusterPair between(*this, a.cluster, b.cluster);
+      for (const Index i : a.elements)
+        for (const Index j : b.elements)
           if (i < j) between.exchange(i, j, sink, *of_thread, counts);
     }
   }

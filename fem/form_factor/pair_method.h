@@ -63,10 +63,17 @@ class PairMethod : public FormFactorMethod {
 
  private:
   class ClusterPair;
+  /// Those elements of a cluster that are in a block.
+  struct Part {
+    const ElementCluster& cluster;
+    std::span<const Index> elements;
+  };
+  std::vector<Part> parts_of(const ElementBlock& block) const;
 
   FormFactorContext context_;
   PairIntegrator integrate_;
   std::vector<ElementCluster> clusters_;
+  std::vector<std::size_t> cluster_of_;  ///< per element
   Blockers blockers_;
 };
 

@@ -21,15 +21,6 @@ constexpr double marked_share = 0.7, missed = 2, cancelling_share = 0.1;
 /// falls to a half from degree to degree.
 constexpr double smooth = 0.7;
 
-/// Coarse, but not so coarse that a pass sees nothing of the room.
-mesh::ElementMesh first_elements(const scene::Scene& scene, const RadiositySettings& settings,
-                                 const AdaptiveSettings& adaptive) {
-  constexpr double few = 60;
-  if (!(adaptive.target > 0)) return elements_of(scene, settings);
-  if (settings.element_size > 0) return mesh::uniform(scene, settings.element_size);
-  return mesh::coarse(scene, mesh::edge_for(scene, few));
-}
-
 Index unknowns(std::span<const int> degree) {
   Index sum = 0;
   for (const int p : degree) sum += plane_functions(p);
@@ -110,6 +101,13 @@ Spectrum bound_of(const DualWeighted& found) {
   return missed * abs(found.correction) + cancelling_share * sizes + found.quadrature;
 }
 
+bool any(const std::vector<bool>& which) { return std::find(which.begin(), which.end(), true) != which.end(); }
+
+/// Whether their errors alone are more than what is asked for.
+bool by_form_factors(const scene::Scene& scene, const AdaptivePass& pass, const AdaptiveSettings& adaptive) {
+  return scene.weigh(pass.quadrature) > adaptive.target * scene.weigh(pass.value);
+}
+
 std::optional<AdaptiveStop> reason_to_stop(const scene::Scene& scene, std::span<const AdaptivePass> passes,
                                            const AdaptiveSettings& adaptive) {
   const double value = scene.weigh(passes.back().value), allowed = adaptive.target * value;
@@ -117,7 +115,7 @@ std::optional<AdaptiveStop> reason_to_stop(const scene::Scene& scene, std::span<
   if (!(adaptive.target > 0)) return AdaptiveStop::only_asked;
   if (scene.weigh(passes.back().error) <= allowed) return AdaptiveStop::met;
   if (std::ssize(passes) < adaptive.most_passes) return std::nullopt;
-  return scene.weigh(passes.back().quadrature) > allowed ? AdaptiveStop::form_factors : AdaptiveStop::passes;
+  return by_form_factors(scene, passes.back(), adaptive) ? AdaptiveStop::form_factors : AdaptiveStop::passes;
 }
 
 }  // namespace
@@ -161,9 +159,12 @@ class Passes {
           adaptation.why = *stop;
           break;
         }
-        std::optional<Elements> next = refine(elements, found);
+        const std::vector<bool> which = marked(scene_, found);
+        std::optional<Elements> next = any(which) ? refine(elements, found, which) : std::nullopt;
         if (!next) {
-          adaptation.why = AdaptiveStop::memory;
+          adaptation.why = by_form_factors(scene_, adaptation.passes.back(), adaptive_)
+                               ? AdaptiveStop::form_factors
+                               : (any(which) ? AdaptiveStop::memory : AdaptiveStop::passes);
           break;
         }
         found = pass(*next, adaptation);
@@ -195,8 +196,9 @@ class Passes {
   }
 
   /// Nothing, where there is no memory for it.
-  std::optional<Elements> refine(const Elements& before, const DualWeighted& found) const {
-    Refined next = refined(before, refinement_of(marked(scene_, found), found, before.degree, settings_.order));
+  std::optional<Elements> refine(const Elements& before, const DualWeighted& found,
+                                 const std::vector<bool>& which) const {
+    Refined next = refined(before, refinement_of(which, found, before.degree, settings_.order));
     const double both = std::hypot(static_cast<double>(next.mesh.size()), static_cast<double>(before.mesh.size()));
     if (!fits_memory(both, settings_, FormFactorMethod::Granularity::pair)) return std::nullopt;
     RadiosityOperator from =
@@ -213,6 +215,14 @@ class Passes {
 };
 
 }  // namespace
+
+mesh::ElementMesh first_elements(const scene::Scene& scene, const RadiositySettings& settings,
+                                 const AdaptiveSettings& adaptive) {
+  constexpr double few = 60;
+  if (!(adaptive.target > 0)) return elements_of(scene, settings);
+  if (settings.element_size > 0) return mesh::uniform(scene, settings.element_size);
+  return mesh::coarse(scene, mesh::edge_for(scene, few));
+}
 
 AdaptedElements adapt_elements(const scene::Scene& scene, const RadiositySettings& settings,
                                const AdaptiveSettings& adaptive, const raycast::RayCaster& rays, Run& run) {

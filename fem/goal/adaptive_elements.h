@@ -14,6 +14,11 @@ struct AdaptedElements {
   Adaptation adaptation;
 };
 
+/// What it starts with: coarse, but not so coarse that a pass sees nothing of the room; elements as they are where there
+/// is no target.
+mesh::ElementMesh first_elements(const scene::Scene& scene, const RadiositySettings& settings,
+                                 const AdaptiveSettings& adaptive);
+
 /// Starts with coarse elements of linear polynomials and, pass after pass, refines those that make most of what the
 /// dual-weighted residual finds, until
 ///

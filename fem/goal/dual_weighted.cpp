@@ -25,6 +25,9 @@ Spectrum spectrum_of(const Eigen::RowVectorXd& values) {
   return out;
 }
 
+/// Of what functions send from afar: far below what elements lack, wherever it matters.
+constexpr double accuracy_of_transport = 1e-5;
+
 /// How fast coefficients fall from degree 1 to the highest, 3, per degree; those that do not matter count as `least`.
 /// @param functions  rich functions x channels
 double decay_of(const scene::Scene& scene, const Eigen::Ref<const ColumnMatrix>& functions) {
@@ -32,7 +35,7 @@ double decay_of(const scene::Scene& scene, const Eigen::Ref<const ColumnMatrix>&
     const Index first = degree == 0 ? 0 : plane_functions(degree - 1), count = plane_functions(degree) - first;
     return scene.weigh(spectrum_of(functions.middleRows(first, count).colwise().norm()));
   };
-  constexpr double least = 1e-6;  // of the mean: what T is known to, and less
+  constexpr double least = 1e-6;  // of the mean: less matters nowhere, and from afar less than 1e-5 is not known
   const double floor = least * of_degree(0);
   if (!(floor > 0)) return 0;
   return 0.5 * std::log(std::max(of_degree(1), floor) / std::max(of_degree(3), floor));
@@ -102,8 +105,7 @@ class Estimator {
   /// @param at    [T b, T w] at the nodes
   void estimate(const ColumnMatrix& h, const ElementNodes& nodes, const ColumnMatrix& at, DualWeighted& out) const {
     const Index channels = h.cols() / 2;
-    Eigen::RowVectorXd residual = Eigen::RowVectorXd::Zero(channels), largest = residual, correction = residual;
-    double total = 0;
+    Eigen::RowVectorXd correction = Eigen::RowVectorXd::Zero(channels);
     for (Index i = 0; i < system_.mesh.size(); ++i) {
       const std::size_t element = static_cast<std::size_t>(i);
       const scene::SurfacePatch& patch = system_.mesh.patches()[element];
@@ -122,7 +124,6 @@ class Estimator {
         product += node.weight * r.cwiseProduct(zeta);
         r_squares += node.weight * r.cwiseAbs2();
         z_squares += node.weight * zeta.cwiseAbs2();
-        largest = largest.cwiseMax(r.cwiseAbs());
         r_functions += (node.weight / patch.area) * N * r;
         of_transported += (node.weight / patch.area) * N * at.row(static_cast<Index>(q));
       }
@@ -133,16 +134,12 @@ class Estimator {
         size += of_direct.cwiseAbs();
       }
       correction += product;
-      residual += r_squares;
-      total += patch.area;
       out.of_elements.push_back(spectrum_of(product));
       out.size.push_back(spectrum_of(size));
       out.decay.push_back(decay_of(system_.scene, of_transported.leftCols(channels)) +
                           decay_of(system_.scene, of_transported.rightCols(channels)));
     }
     out.correction = spectrum_of(correction);
-    out.residual = spectrum_of((residual / total).cwiseSqrt());
-    out.largest_residual = spectrum_of(largest);
   }
 
  private:
@@ -174,8 +171,7 @@ DualWeighted dual_weighted(const ElementSystem& system, solvers::ConstColumns b,
   out.value = estimator.value(b, h.leftCols(channels));
   out.by_importance = estimator.by_importance(h.rightCols(channels));
   out.quadrature = estimator.quadrature(both.leftCols(channels), both.rightCols(channels), run);
-  constexpr double accuracy = 1e-5;  // far below what elements lack, wherever it matters
-  const PointViewFactors factors(system.scene, system.mesh.patches(), system.order, accuracy);
+  const PointViewFactors factors(system.scene, system.mesh.patches(), system.order, accuracy_of_transport);
   const ElementNodes nodes = element_nodes(system.mesh.patches(), rich + 1);
   estimator.estimate(h, nodes, iterated_transport(factors, system.mesh.patches(), nodes, both, run), out);
   return out;

@@ -31,8 +31,6 @@ struct DualWeighted {
   std::vector<Spectrum> size;         ///< sqrt(int zeta² int r²) of elements: what a better mesh may change there
   std::vector<double> decay;          ///< of elements: of T B_h's and T w_h's Legendre coefficients, see below
   Spectrum quadrature;                ///< what K's own errors do to it: root of the sum of squares
-  Spectrum residual;                  ///< sqrt(int r² / area): of the radiosity
-  Spectrum largest_residual;          ///< |r| at nodes
 };
 
 /// Dual-weighted residuals [Becker, Rannacher 2001], which for radiosity is importance [Smits, Arvo, Salesin 1992] with

@@ -1,6 +1,7 @@
 #include "fem/goal/goal.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.h"
 #include "fem/point_view_factors.h"
@@ -18,16 +19,20 @@ class Weigher {
     GoalWeights weights = none();
     const PointViewFactors factors(scene_, mesh_.patches(), order_);
     const auto unknowns = static_cast<Index>(weights.direct.size());
-    std::vector<Eigen::VectorXd> rows(goal.points.size());
-    run_.threads.for_blocks(static_cast<Index>(goal.points.size()), 1, [&](Index s, Index) {
-      run_.throw_if_stopped("goal");
-      Eigen::VectorXd& F = rows[static_cast<std::size_t>(s)];
-      F.resize(unknowns);
-      std::vector<double> rounding(mesh_.patches().size());
-      factors(goal.points[static_cast<std::size_t>(s)], {F.data(), weights.direct.size()}, rounding);
-    });
-    Eigen::Map<Eigen::VectorXd> sum(weights.direct.data(), unknowns);
-    for (const Eigen::VectorXd& row : rows) sum += row / static_cast<double>(rows.size());
+    const auto points = static_cast<Index>(goal.points.size());
+    constexpr Index together = 16;  // points whose rows are added by one thread: not all are to be in memory
+    const Eigen::VectorXd none_of_them = Eigen::VectorXd::Zero(unknowns);
+    Eigen::Map<Eigen::VectorXd>(weights.direct.data(), unknowns) =
+        core::reduce_in_blocks(run_.threads, points, together, none_of_them, [&](Index begin, Index end) {
+          Eigen::VectorXd F(unknowns), sum = none_of_them;
+          std::vector<double> rounding(mesh_.patches().size());
+          for (Index s = begin; s < end; ++s) {
+            run_.throw_if_stopped("goal");
+            factors(goal.points[static_cast<std::size_t>(s)], {F.data(), weights.direct.size()}, rounding);
+            sum += F / static_cast<double>(points);
+          }
+          return sum;
+        });
     return weights;
   }
 
@@ -49,16 +54,21 @@ class Weigher {
     const scene::Camera& camera = scene_.camera(goal.camera);
     const auto functions = static_cast<std::size_t>(plane_functions(order_));
     const double each = inv_pi / (static_cast<double>(camera.width) * camera.height);
-    for (int y = 0; y < camera.height; ++y)
+    std::vector<std::optional<PlaneBasis>> bases(mesh_.patches().size());  // of elements in view
+    for (int y = 0; y < camera.height; ++y) {
+      run_.throw_if_stopped("goal");
       for (int x = 0; x < camera.width; ++x) {
         const auto hit = rays_.closest({camera.eye, camera.direction(x + 0.5, y + 0.5)});
         const auto found = hit ? mesh_.locate(*hit) : std::nullopt;
         if (!found) continue;
         const scene::SurfacePatch& patch = mesh_.patch(found->element);
-        const PlaneBasis::Values N = PlaneBasis(order_, patch.ring(), patch.normal()).at(hit->position);
+        std::optional<PlaneBasis>& basis = bases[found->element.value];
+        if (!basis) basis.emplace(order_, patch.ring(), patch.normal());
+        const PlaneBasis::Values N = basis->at(hit->position);
         for (std::size_t a = 0; a < functions; ++a)
           weights.direct[found->element.value * functions + a] += each * N[static_cast<Index>(a)];
       }
+    }
     return weights;
   }
 

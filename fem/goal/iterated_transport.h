@@ -14,15 +14,12 @@ struct ElementNodes {
   std::vector<std::size_t> first;  ///< of each element, and the end: elements + 1
 
   std::size_t size() const { return nodes.size(); }
-  std::span<const SurfaceNode> of(std::size_t element) const {
-    return std::span(nodes).subspan(first[element], first[element + 1] - first[element]);
-  }
 };
 /// @param points  across an element, 1 .. 4 (rules_of)
 ElementNodes element_nodes(std::span<const scene::SurfacePatch> patches, int points);
 
 /// (T b)(x) = int k(x, y) b(y) dy at every node, of polynomials b on elements: what Sloan's iteration E + rho T b needs,
-/// past whatever hides and to rounding (point_view_factors.h).
+/// past whatever hides, and as accurate as `factors` are (point_view_factors.h).
 ///
 /// @param b  unknowns of `factors`, element after element, x columns
 /// @return   nodes x columns

@@ -25,7 +25,7 @@ struct NodeSet {
 
 /// Gauss nodes of each panel, so many that the discrete projection c_a = 1/A sum_q w_q N_a(x_q) v_q is that of L2 for
 /// all of the space: order + 1 on segments, order + 1 across a quad, 1, 3, 6 or 12 on triangles.  On segments, and on
-/// triangles of order 1 and 2, it goes through the values.  Of order 0: centroids.
+/// triangles of order 1 and 2, it goes through the values.  Of order 0: the middles of elements' corners.
 NodeSet gauss_nodes(const Space& space);
 
 /// Both ends of segments, and Lobatto's points between them: as many as functions.

@@ -44,8 +44,21 @@ PlaneBasis::PlaneBasis(int order, std::span<const Vec3> ring, const Vec3& normal
   powers = powers * scale.asDiagonal();
   const Eigen::MatrixXd solved = powers.colPivHouseholderQr().solve(values);
   coefficients_ = (scale.asDiagonal() * solved).transpose();
-  largest_ = 1;
-  for (const Vec3& x : ring) largest_ = std::max(largest_, at(x).cwiseAbs().maxCoeff());
+  largest_ = largest_on(ring);
+}
+
+/// sum_ij |C_a,ij| (|xi| / r)^i (|eta| / r)^j with the largest of either coordinate, which is at a corner.
+double PlaneBasis::largest_on(std::span<const Vec3> ring) const {
+  double xi = 0, eta = 0;
+  for (const Vec3& x : ring) {
+    const Vec3 from = (x - frame_.origin) / radius_;
+    xi = std::max(xi, std::abs(frame_.e_1.dot(from)));
+    eta = std::max(eta, std::abs(frame_.e_2.dot(from)));
+  }
+  std::array<double, most_functions> powers;
+  monomials(order_, xi, eta, powers);
+  return std::max(1.0,
+                  (coefficients_.cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(powers.data(), size())).maxCoeff());
 }
 
 PlaneBasis::Values PlaneBasis::at(const Vec3& y) const {

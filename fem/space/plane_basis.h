@@ -36,9 +36,11 @@ class PlaneBasis {
   Values at(const Vec3& y) const;
   /// From integrals of xi^i eta^j [m^(i+j) times what they are of] to those of the functions.
   Values of_monomials(std::span<const double> integrals) const;
-  double largest() const { return largest_; }  ///< |N_a| at nodes over the element: what functions are at most, about
+  double largest() const { return largest_; }  ///< what |N_a| are at most on the element: not below it
 
  private:
+  double largest_on(std::span<const Vec3> ring) const;
+
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_functions, most_functions>;
 
   int order_;

@@ -53,7 +53,7 @@ class Space {
   Index functions(Index i) const { return basis(i).size(); }
 
   PanelNodes nodes(Index i, const Rule& rule) const;
-  /// By Gauss rules of so many points, on triangles those of the next even degree (at most 4).
+  /// By Gauss rules of so many points, 1 .. 4, on triangles those beside them (rules_of).
   PanelNodes nodes(Index i, int points) const;
 
   Eigen::VectorXd project(const Field& f, int points) const;

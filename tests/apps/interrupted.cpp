@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -146,6 +147,69 @@ TEST(Interrupted, a_validation_stopped_before_anything_is_traced_keeps_the_solut
   EXPECT_TRUE(contains(validate.err, "interrupted during")) << validate.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "out/validation.json"));
   EXPECT_EQ(json_of(summary).at("stopped"), true);
+}
+
+/// What `shoot` left: the fields, bit by bit.
+std::string field_of(const std::filesystem::path& folder) { return read_file(folder / "solution.vtu"); }
+
+// What was shot is kept, and the rest can be shot later: the solution is that of one run, to the last bit.
+TEST(Interrupted, shooting_goes_on_where_it_was_stopped) {
+  const TemporaryFolder folder;
+  const auto shoot = [&](const std::string& out, std::vector<std::string> more, const Circumstances& how = {}) {
+    std::vector<std::string> all{
+        "shoot", shipped_scene("cornell_box"), "-o", folder / out, "--no-pictures", "--element-size", "0.05", "--seed",
+        "3"};
+    all.insert(all.end(), more.begin(), more.end());
+    return interflect(all, how);
+  };
+  ASSERT_EQ(shoot("whole", {"--unshot", "4%"}).status, 0);
+  const Outcome stopped = shoot("parts", {"--unshot", "4%", "--max-time", "1s", "--threads", "1"});
+  EXPECT_EQ(stopped.status, 1) << stopped.err;
+  EXPECT_TRUE(contains(stopped.err, "--resume goes on")) << stopped.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "parts/surfaces.csv"));
+  const auto first = json_of(folder / "parts/summary.json"), whole = json_of(folder / "whole/summary.json");
+  EXPECT_LT(first.at("shots"), whole.at("shots"));
+  const Outcome gone_on = shoot("parts", {"--unshot", "4%", "--resume", "--threads", "8"});
+  EXPECT_EQ(gone_on.status, 0) << gone_on.err;
+  EXPECT_EQ(json_of(folder / "parts/summary.json").at("shots"), whole.at("shots"));
+  EXPECT_EQ(field_of(folder / "parts"), field_of(folder / "whole"));
+
+  // Of another scene, of other settings, of nothing: a line each, and what was there stays.
+  const std::string kept = read_file(folder / "parts/shots.h5");
+  const Outcome other = interflect({"shoot", shipped_scene("cube"), "-o", folder / "parts", "--resume"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "shots.h5: this checkpoint is of another scene")) << other.err;
+  const Outcome settings = shoot("parts", {"--resume", "--overshoot", "0.5"});
+  EXPECT_EQ(settings.status, 2);
+  EXPECT_TRUE(contains(settings.err, "of other settings")) << settings.err;
+  EXPECT_EQ(read_file(folder / "parts/shots.h5"), kept);
+  const Outcome nothing = shoot("nowhere", {"--resume"});
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_TRUE(contains(nothing.err, "there is no such checkpoint")) << nothing.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "nowhere"));
+  std::filesystem::resize_file(folder / "parts/shots.h5", kept.size() / 2);
+  const Outcome cut = shoot("parts", {"--resume"});
+  EXPECT_EQ(cut.status, 2) << cut.err;
+  EXPECT_EQ(std::count(cut.err.begin(), cut.err.end(), '\n'), 1) << cut.err;
+}
+
+// Pictures on the way.
+TEST(Interrupted, shooting_can_be_looked_at) {
+  const TemporaryFolder folder;
+  const Outcome shoot = interflect({"shoot", shipped_scene("cornell_box"), "-o", folder / "out", "--element-size",
+                                    "0.2", "--every", "10", "--unshot", "30%", "--json"});
+  ASSERT_EQ(shoot.status, 0) << shoot.err;
+  const auto said = nlohmann::json::parse(shoot.out);
+  EXPECT_LE(said.at("unshot"), .3);
+  const int looks = said.at("shots").get<int>() / 10;
+  ASSERT_GT(looks, 0);
+  for (int k = 1; k <= looks; ++k) {
+    char name[32];
+    std::snprintf(name, sizeof name, "out/after_%06d", 10 * k);
+    EXPECT_TRUE(std::filesystem::exists(folder / name / "solution.vtu")) << name;
+  }
+  const std::string history = read_file(folder / "out/shots.csv");
+  EXPECT_GE(std::count(history.begin(), history.end(), '\n'), 1 + looks);
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "core/error.h"
 #include "core/format.h"
 #include "core/image.h"
+#include "core/random.h"
 
 namespace interflect::core {
 namespace {
@@ -29,6 +33,22 @@ TEST(Image, pictures_stand_beside_each_other) {
   EXPECT_EQ(both.at(2, 0, 0), 1.0F);
   EXPECT_EQ(both.at(3, 0, 0), 0.5F);
   EXPECT_THROW(side_by_side({a, Image(1, 2, {"Y"})}, 0), PreconditionError);
+}
+
+TEST(Format, rounds_bounds_up_and_never_down) {
+  EXPECT_EQ(rounded_up(3.149, 2), 3.2);
+  EXPECT_EQ(rounded_up(3.1, 2), 3.1);
+  EXPECT_EQ(rounded_up(0.0991, 1), 0.1);
+  EXPECT_EQ(rounded_up(9.96, 2), 10);
+  EXPECT_EQ(rounded_up(1.0000001e-7, 3), 1.01e-7);
+  EXPECT_EQ(rounded_up(0, 2), 0);
+  EXPECT_TRUE(std::isinf(rounded_up(std::numeric_limits<double>::infinity(), 2)));
+  RandomNumbers random(8, 0, 0);
+  for (int k = 0; k < 10000; ++k) {
+    const double value = std::pow(10.0, 12 * random.next() - 6), told = rounded_up(value, 2);
+    ASSERT_GE(told, value);
+    ASSERT_LE(told, value * 1.100001);
+  }
 }
 
 }  // namespace

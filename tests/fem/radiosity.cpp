@@ -313,8 +313,7 @@ TEST(Radiosity, refuses_what_it_cannot_do_in_one_line) {
   settings.element_size = .5;
   settings.form_factors = "by magic";
   EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError);
-  settings = {};
-  settings.element_size = .5;
+  settings.form_factors = RadiositySettings().form_factors;
   settings.closure = "by decree";
   EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError);
 }

@@ -174,5 +174,30 @@ TEST(AdaptiveElements, say_why_they_stopped) {
   EXPECT_THROW(adapt_elements(scene, settings, {nowhere, 1e-2}, *rays, run.get()), core::InputError);
 }
 
+// Black walls: T B_h is E's, whose means Galerkin's solution has exactly; only K's errors are left, and no pass mends them.
+TEST(AdaptiveElements, end_where_no_element_is_to_blame) {
+  Room room;
+  room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 0, 1);
+  const scene::SurfaceId lit = room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, 0);
+  const scene::Scene scene = room.finish();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  core::LocalRun run(1, 2);
+  const Goal goal{"lit", Goal::OnSurface{lit, scene::Side::front}};
+  const Adaptation made = adapt_elements(scene, settings_of(1, 1e-2), {goal, 1e-4}, *rays, run.get()).adaptation;
+  EXPECT_EQ(made.why, AdaptiveStop::form_factors);
+  EXPECT_EQ(made.passes.size(), 1u);
+}
+
+// The pass that is forecast is the first one, however many elements a solve would have by default.
+TEST(AdaptiveElements, are_forecast_by_their_first_pass) {
+  const scene::Scene scene = two_rooms();
+  core::LocalRun run(1, 2);
+  RadiositySettings settings = settings_of(2);
+  settings.adaptive = AdaptiveSettings{far_plane(), 1e-3};
+  EXPECT_EQ(forecast(scene, settings, run.get()).elements,
+            static_cast<double>(first_elements(scene, settings, *settings.adaptive).size()));
+  EXPECT_LT(forecast(scene, settings, run.get()).elements, 120);
+}
+
 }  // namespace
 }  // namespace interflect::fem

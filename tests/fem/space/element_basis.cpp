@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "fem/quadrature.h"
+#include "fem/space/plane_basis.h"
 #include "scene/place.h"
 
 namespace interflect::fem {
@@ -155,6 +157,29 @@ TEST(ElementBasis, of_no_known_order_or_shape_is_refused) {
   EXPECT_THROW(ElementBasis(1, pentagon), core::PreconditionError);
   EXPECT_THROW(ElementBasis(4, triangle), core::PreconditionError);
   EXPECT_THROW(ElementBasis(-1, triangle), core::PreconditionError);
+}
+
+// What |N_a| are at most is not below what they are anywhere, and not far above.
+TEST(PlaneBasis, knows_the_most_that_its_functions_are) {
+  core::RandomNumbers random(77, 0, 0);
+  for (int trial = 0; trial < 60; ++trial) {
+    const double width = std::pow(10.0, -3 * random.next());  // slender ones too
+    const std::vector<Vec3> quad{Vec3(0, 0, 0), Vec3(1 + random.next(), 0, 0), Vec3(0.8 + random.next(), width, 0),
+                                 Vec3(0.3 * random.next(), width * (0.4 + random.next()), 0)};
+    for (const std::size_t corners : {std::size_t{3}, std::size_t{4}})
+      for (const int order : {0, 1, 2, 3}) {
+        const std::span<const Vec3> ring(quad.data(), corners);
+        const PlaneBasis basis(order, ring, Vec3::UnitZ());
+        double most = 0;
+        for (int i = 0; i <= 40; ++i)
+          for (int j = 0; j <= 40; ++j) {
+            const double u = i / 40.0, v = corners == 3 ? (1 - u) * j / 40.0 : j / 40.0;
+            most = std::max(most, basis.at(point_on(ring, u, v)).cwiseAbs().maxCoeff());
+          }
+        ASSERT_GE(basis.largest(), most * (1 - 1e-9)) << trial << " " << corners << " " << order;
+        ASSERT_LE(basis.largest(), 200 * most) << trial << " " << corners << " " << order;
+      }
+  }
 }
 
 }  // namespace

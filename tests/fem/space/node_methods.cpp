@@ -6,6 +6,7 @@
 #include "core/interval.h"
 #include "fem/continuous.h"
 #include "fem/node_radiosity.h"
+#include "fem/radiosity_operator.h"
 #include "mesh/uniform.h"
 #include "tests/fem/rooms.h"
 
@@ -271,6 +272,43 @@ TEST(NodeMethods, refuse_what_they_cannot_have) {
   EXPECT_THROW(require_compatible(repaired), core::InputError);
   EXPECT_THROW(projection_named("edges"), core::InputError);
   for (const std::string& name : projection_names()) EXPECT_EQ(name_of(projection_named(name)), name);
+}
+
+// Before any form factor is computed.
+TEST(NodeMethods, refuse_solvers_that_want_a_symmetric_matrix) {
+  for (const char* solver : {"conjugate-gradients", "southwell", "progressive"}) {
+    RadiositySettings settings;
+    settings.projection = Projection::centroids;
+    settings.form_factors = "analytic";
+    settings.solver = solver;
+    EXPECT_THROW(require_compatible(settings), core::InputError) << solver;
+    settings.solver = "gmres";
+    EXPECT_NO_THROW(require_compatible(settings));
+  }
+}
+
+// A chequerboard of values at the corners of squares has a projection onto linear functions of 0: it cannot be told from
+// none.
+TEST(NodeMethods, refuse_corners_that_depend_on_each_other) {
+  Room room;
+  room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .5, 1);
+  room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, .5);
+  const scene::Scene scene = room.finish();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  const mesh::ElementMesh mesh = mesh::uniform(scene, .3);
+  core::LocalRun run(1, 2);
+  for (const int order : {1, 2}) {
+    RadiositySettings settings;
+    settings.order = order;
+    settings.form_factors = "analytic";
+    const RadiosityOperator from = assemble_operator(scene, mesh.patches(), *rays, settings, run.get());
+    const NodeSet nodes = corner_nodes(space_on(mesh.patches(), order), mesh);
+    if (order == 1) {
+      EXPECT_THROW(continuous_galerkin(*from.blocks, nodes, run.get()), core::PreconditionError);
+    } else {
+      EXPECT_NO_THROW(continuous_galerkin(*from.blocks, nodes, run.get()));
+    }
+  }
 }
 
 }  // namespace

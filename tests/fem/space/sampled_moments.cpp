@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "fem/assembly.h"
+#include "fem/radiosity_method.h"
 #include "tests/fem/rooms.h"
 
 // Polynomials whose visibility is sampled.
@@ -116,10 +117,23 @@ TEST(SampledMoments, solve_within_their_noise) {
   core::LocalRun run(1, 2);
   const RadiositySolution exact = solve_radiosity(scene, settings, run.get());
   settings.form_factors = "gauss-lambert";
-  double squares = 0, count = 0, far_off = 0;
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  std::vector<measure::Measurement> points;
+  for (const std::size_t i : {std::size_t{0}, patches.size() / 2}) {
+    const scene::SurfacePatch& patch = exact.mesh.patches()[i];
+    points.emplace_back(measure::PointIrradiance{patch.centroid(), patch.normal(), patch.surface});
+  }
+  const std::vector<Estimate> exact_points = RadiosityMethod(exact, *rays).answer(scene, points, run.get());
+  double squares = 0, count = 0, far_off = 0, squares_at_points = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     core::LocalRun seeded(seed, 2);
     const RadiositySolution s = solve_radiosity(scene, settings, seeded.get());
+    const std::vector<Estimate> at_points = RadiosityMethod(s, *rays).answer(scene, points, seeded.get());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      ASSERT_GT(at_points[p].standard_error[0], 0) << "its noise is that of what it gathers";
+      const double z = (at_points[p].value[0] - exact_points[p].value[0]) / at_points[p].standard_error[0];
+      squares_at_points += z * z / (40.0 * static_cast<double>(points.size()));
+    }
     for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
       EXPECT_GT(s.irradiance_noise[i][0], 0);
       const double z = (s.irradiance[i][0] - exact.irradiance[i][0]) / s.irradiance_noise[i][0];
@@ -131,6 +145,8 @@ TEST(SampledMoments, solve_within_their_noise) {
   EXPECT_LT(far_off, .002 * count);
   EXPECT_LT(squares / count, 1);
   EXPECT_GT(squares / count, .1);
+  EXPECT_LT(squares_at_points, 1.5);  // of 80, few of which are independent
+  EXPECT_GT(squares_at_points, .02);
 }
 
 TEST(SampledMoments, make_no_elements_for_a_goal) {
