@@ -37,6 +37,8 @@ void add_solve(CLI::App& app, Command& chosen) {
   add_scene(*command, options->scene);
   add_radiosity(*command, *options, add_folder(*command, options->out));
   add_no_pictures(*command, options->pictures);
+  command->add_flag("--light-groups", options->settings.light_groups,
+                    "Keep what each group of lights does alone, for interflect dim");
   command->add_flag("--bounds", options->bounds,
                     "Prove bounds of every number too, element by element and at sensors (docs/bounds.md)");
   command->add_flag("--residual", options->residual,
@@ -165,9 +167,23 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
       compare_solvers, options, chosen);
   add_scene(*command, options->scene);
   add_folder(*command, options->out, "the table and the plots");
-  command->add_option("--solvers", options->solvers, "Which ones; default: all, of which `automatic` is one")
+  command->add_option("--solvers", options->solvers, "Which ones; default: all but `automatic`, which is one of them")
       ->check(CLI::IsMember(solvers::solver_names()));
   add_equations(*command, options->settings);
+}
+
+void add_dim(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<DimOptions>();
+  CLI::App* command =
+      add_command<DimOptions>(app, "dim", "Light groups of a solution at other outputs: no solve, all files anew",
+                              "interflect dim out/office --group \"window side=40%\"   # of: interflect solve "
+                              "data/scenes/office.json -o out/office "
+                              "--light-groups",
+                              dim, options, chosen);
+  command->add_option("SOLUTION", options->solution, "Folder of a solve --light-groups")->required();
+  command->add_option("--group", options->groups, "NAME=PART of its full output, 0.4 or 40%; of others all");
+  command->add_option("-o,--out", options->out, "Folder for the results")->default_str("SOLUTION/dimmed");
+  add_no_pictures(*command, options->pictures);
 }
 
 void add_shoot(CLI::App& app, Command& chosen) {
@@ -270,6 +286,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_solvers(app, command);
   add_compare_solvers(app, command);
   add_shoot(app, command);
+  add_dim(app, command);
   add_exchange(app, command);
   add_info(app, command);
   add_check(app, command);

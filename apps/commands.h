@@ -21,6 +21,7 @@ ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const 
 ExitStatus solvers(const SolversOptions& options, const CommonOptions& common, Run& run);
 ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOptions& common, Run& run);
 ExitStatus shoot(const ShootOptions& options, const CommonOptions& common, Run& run);
+ExitStatus dim(const DimOptions& options, const CommonOptions& common, Run& run);
 ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run);
 ExitStatus info(const InfoOptions& options, const CommonOptions& common, Run& run);
 ExitStatus check(const CheckOptions& options, const CommonOptions& common, Run& run);

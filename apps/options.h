@@ -33,6 +33,12 @@ struct SolveOptions {
   bool residual = false;  ///< its norms are found too
 };
 
+struct DimOptions {
+  std::filesystem::path solution, out;  ///< the folder of a solve; empty out: `dimmed` in it
+  std::vector<std::string> groups;      ///< NAME=PART
+  bool pictures = true;
+};
+
 struct ValidateOptions {
   SolveOptions solve;
   double accuracy = 0.01;  ///< relative standard error asked of each traced value

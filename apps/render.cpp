@@ -61,9 +61,10 @@ ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run
   if (common.json)
     std::printf("%s\n", results::json_text(record_of(rendered)).c_str());
   else if (!common.quiet)
-    std::printf("%s, %d rays a pixel, mean radiance %.4g %s, error %.2g in the mean: %s and %s\n",
-                rendered.camera.c_str(), rendered.rays, rendered.mean, scene.radiance_unit(), rendered.mean_error,
-                rendered.exr.c_str(), rendered.png.c_str());
+    std::printf(
+        "%s, %d ray%s a pixel, mean radiance %.4g %s, pixels' errors %.2g %s in the mean (estimated): %s and %s\n",
+        rendered.camera.c_str(), rendered.rays, rendered.rays == 1 ? "" : "s", rendered.mean, scene.radiance_unit(),
+        rendered.mean_error, scene.radiance_unit(), rendered.exr.c_str(), rendered.png.c_str());
   return shortfalls_of(solved->solution, options.solve.settings).empty() ? success : not_met;
 }
 

@@ -194,7 +194,7 @@ ExitStatus shoot(const ShootOptions& options, const CommonOptions& common, Run& 
   Shooting shooting(solved, options, common, run);
   shooting.advance();
   Run to_the_end = run.to_the_end();  // what is written of a run that was stopped is as good as of one that was not
-  answer_sensors(solved, to_the_end);
+  solved.at_points = answers_at(solved.points, solved.method(), solved.scene, to_the_end);
   shooting.write();
   if (!shooting.converged()) core::log::shortfall("light is left unshot: --resume goes on from here");
   if (common.json)

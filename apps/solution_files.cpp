@@ -90,14 +90,33 @@ results::Record energy_record(const fem::EnergyBalance& energy, int channels) {
   return record;
 }
 
+/// Sensors' means with their errors, in the weighted unit.
+results::Record::List sensor_records(const SolvedScene& solved) {
+  results::Record::List list;
+  for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points)) {
+    results::Record record;
+    record.add("name", s.sensor)
+        .add("points", s.points)
+        .add("unit", solved.scene.irradiance_unit())
+        .add("minimum", s.minimum)
+        .add("mean", s.mean)
+        .add("maximum", s.maximum)
+        .add("uniformity", s.uniformity())
+        .add("error", s.error);
+    if (solved.bounds) record.add("proved_error", proved_error(solved, *solved.bounds, s.sensor, s.mean));
+    list.push_back(std::move(record));
+  }
+  return list;
+}
+
 std::string energy_text(const SolvedScene& solved) {
   const scene::Scene& scene = solved.scene;
   const fem::EnergyBalance& e = solved.solution.energy;
   const double emitted = scene.weigh(e.emitted);
   const auto part = [&](const Spectrum& flux) { return core::format_percent(scene.weigh(flux) / emitted); };
   return core::format(
-      "energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s, form-factor error %s, solver "
-      "residual %.1e\n",
+      "energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s, form-factor error %s, left "
+      "over %.1e\n",
       emitted, scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(), part(e.on_backs).c_str(),
       part(e.form_factor_error).c_str(), emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0);
 }
@@ -192,6 +211,7 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("mean_irradiance", error.mean_irradiance)
       .add("relative_error_l2", error.relative_l2)
       .add("relative_noise_l2", error.relative_noise_l2)
+      .add("sensors", sensor_records(solved))
       .add("adaptation",
            solution.adaptation ? adaptation_record(*solution.adaptation, solved.scene) : results::Record())
       .add("bounds", solved.bounds ? bounds_record(solved, *solved.bounds) : results::Record())

@@ -2,6 +2,7 @@
 
 #include "apps/commands.h"
 #include "apps/equation_residual.h"
+#include "apps/light_group_files.h"
 #include "apps/proved_bounds.h"
 #include "apps/read_scene.h"
 #include "apps/solution_files.h"
@@ -11,9 +12,13 @@ namespace interflect::apps {
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run) {
   if (options.forecast_only) return print_forecast(options, common, run);
   const auto solved = solve_scene(read_and_note(options.scene), options, common, run);
-  if (options.bounds) solved->bounds = proved_bounds(*solved, options.settings.max_memory, run);
+  if (options.bounds) {
+    solved->bounds = proved_bounds(*solved, options.settings.max_memory, run);
+    if (!solved->bounds) solved->warnings.emplace_back("stopped before its bounds were found: there are none");
+  }
   if (options.residual) solved->residual = equation_residual(*solved, run);
   write_solution(*solved, options, common, run);
+  if (options.settings.light_groups) write_light_groups(*solved, options.out, run);
   if (common.json)
     std::printf("%s\n", results::json_text(summary_record(*solved, options, common, run)).c_str());
   else if (!common.quiet)

@@ -54,10 +54,31 @@ std::vector<std::string> blind_sensors(const SolvedScene& solved) {
   return warnings;
 }
 
+/// The part of the surfaces on which polynomials dip below 0, by elements' corners.
+double negative_share(const SolvedScene& solved) {
+  const fem::RadiositySolution& s = solved.solution;
+  double area = 0, negative = 0;
+  for (std::size_t i = 0; s.field && i < s.radiosity.size(); ++i) {
+    const scene::SurfacePatch& patch = s.mesh.patches()[i];
+    area += patch.area;
+    for (const Vec3& x : patch.ring())
+      if (solved.scene.weigh(s.field->irradiance_at(i, x)) < 0)
+        negative += patch.area / static_cast<double>(patch.ring().size());
+  }
+  return area > 0 ? negative / area : 0;
+}
+
 /// What the solution shows to be odd.
 std::vector<std::string> warnings_of(const SolvedScene& solved) {
   std::vector<std::string> warnings = blind_sensors(solved);
   for (std::string& warning : energy_warnings(solved.scene, solved.solution)) warnings.push_back(std::move(warning));
+  constexpr double noticeable = 1e-3;
+  if (const double share = negative_share(solved); share > noticeable)
+    warnings.push_back(
+        core::format("polynomials dip below 0 at some %s of the surfaces, beside shadows that elements are "
+                     "too large for%s",
+                     core::format_percent(share).c_str(),
+                     solved.solution.adaptation ? ": they were made for one number, not for pictures" : ""));
   return warnings;
 }
 
@@ -92,10 +113,11 @@ std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, c
   return warnings;
 }
 
-void answer_sensors(SolvedScene& solved, Run& run) {
+std::vector<Estimate> answers_at(std::span<const measure::SensorPoint> points, const fem::RadiosityMethod& method,
+                                 const scene::Scene& scene, Run& run) {
   std::vector<measure::Measurement> asked;
-  for (const measure::SensorPoint& point : solved.points) asked.emplace_back(point.at);
-  solved.at_points = solved.method().answer(solved.scene, asked, run);
+  for (const measure::SensorPoint& point : points) asked.emplace_back(point.at);
+  return method.answer(scene, asked, run);
 }
 
 std::string describe(const fem::Forecast& forecast) {
@@ -141,7 +163,7 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
   solved->folder = std::move(folder);
   solved->points = std::move(points);
   solved->rays = raycast::make_ray_caster(options.settings.intersector, solved->scene);
-  answer_sensors(*solved, run);
+  solved->at_points = answers_at(solved->points, solved->method(), solved->scene, run);
   solved->warnings = lines_of(solved->scene.warnings);
   for (const std::string& warning : warnings_of(*solved)) {
     core::log::warning(warning);

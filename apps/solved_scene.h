@@ -48,8 +48,9 @@ std::vector<std::string> energy_warnings(const scene::Scene& scene, const fem::R
 /// What a solution fell short of: the tolerance of its rows, that of the solver, that of its goal.
 std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, const fem::RadiositySettings& settings);
 
-/// Sensors' points and what is known there.
-void answer_sensors(SolvedScene& solved, Run& run);
+/// What is known at points of sensors.
+std::vector<Estimate> answers_at(std::span<const measure::SensorPoint> points, const fem::RadiosityMethod& method,
+                                 const scene::Scene& scene, Run& run);
 
 /// "5 000 elements, 0.2 GB, about 40 s"
 std::string describe(const fem::Forecast& forecast);

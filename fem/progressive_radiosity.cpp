@@ -8,6 +8,7 @@
 #include "fem/columns.h"
 #include "fem/error_estimate.h"
 #include "fem/radiosity_operator.h"
+#include "fem/row_sum_check.h"
 #include "solvers/progressive.h"
 #include "solvers/shooting.h"
 
@@ -84,7 +85,8 @@ std::vector<Spectrum> means_of_fours(const mesh::ElementMesh& mesh, std::span<co
 }  // namespace
 
 ProgressiveRadiosity::ProgressiveRadiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run)
-    : settings_(settings),
+    : scene_(scene),
+      settings_(settings),
       run_(run),
       mesh_(mesh_of(scene, settings)),
       element_size_(element_size_of(scene, settings)),
@@ -115,6 +117,11 @@ double ProgressiveRadiosity::unshot_fraction(const Shots& shots) const {
 void ProgressiveRadiosity::take(Shots& shots, ColumnMatrix& shot_before) const {
   const RowsOnDemand::Column& column = K_.last();
   if (column.of < 0) return;
+  const double own = K_.gram()[static_cast<std::size_t>(column.of)];
+  const Eigen::Map<const Eigen::ArrayXd> K(column.K.data(), mesh_.size()),
+      e(column.standard_error.data(), mesh_.size());
+  require_row_sum(scene_, mesh_.patches(), static_cast<std::size_t>(column.of), K.sum() / own,
+                  std::sqrt(e.square().sum()) / own);
   const Eigen::RowVectorXd x = shots.state.x.row(column.of), before = shot_before.row(column.of);
   shot_before.row(column.of) = x;
   const Eigen::RowVectorXd d = x - before, of_squares = x.array().square() - before.array().square(),

@@ -36,7 +36,9 @@ class ProgressiveRadiosity {
 
   Shots begin() const;  ///< nothing is shot yet
   /// Goes on until the settings' StoppingRule is met: `unshot`, and `tolerance` on the residual; or until the run is asked
-  /// to stop.  @param look  at what there is, after every shot
+  /// to stop.
+  /// @param look  at what there is, after every shot
+  /// @throws core::InputError  where a row adds up to more than it can (row_sum_check.h)
   solvers::SolverReport advance(Shots& shots, const std::function<void(const Shots&)>& look);
   /// sum A |r| / sum A |e|, the largest of the channels.
   double unshot_fraction(const Shots& shots) const;
@@ -53,6 +55,7 @@ class ProgressiveRadiosity {
  private:
   void take(Shots& shots, solvers::ColumnMatrix& shot_before) const;
 
+  const scene::Scene& scene_;
   const RadiositySettings& settings_;
   Run& run_;
   mesh::ElementMesh mesh_;

@@ -18,6 +18,8 @@
 #include "fem/node_radiosity.h"
 #include "fem/polynomial_radiosity.h"
 #include "fem/radiosity_operator.h"
+#include "fem/row_sum_check.h"
+#include "measure/light_groups.h"
 
 namespace interflect::fem {
 
@@ -237,11 +239,58 @@ Elements elements_with_factors(const scene::Scene& scene, const RadiositySetting
   return {std::move(mesh), {}, std::move(from), std::nullopt};
 }
 
+/// A scene's equations, whatever shines.
+struct Equations {
+  const scene::Scene& scene;
+  const RadiositySettings& settings;
+  const RadiosityOperator& from;
+  std::span<const int> degree;  ///< of polynomials on elements, where they differ
+  std::span<const double> row_sum_before;
+  const EnvironmentColumn* environment;
+};
+
+/// What a solve leaves for the estimate of its error.
+struct Found {
+  bool converged;
+  PolynomialChange change;  ///< of polynomials
+};
+
+Found solve_with(const Equations& equations, RadiositySolution& s, Run& run) {
+  const RadiositySettings& settings = equations.settings;
+  if (settings.order == 0) return {solve_both(s, equations.scene, *equations.from.K, settings, run), {}};
+  RadiositySettings of_blocks = settings;
+  of_blocks.order = order_of_blocks(settings, s.mesh.patches());
+  PolynomialChange change =
+      solve_polynomials(s, equations.scene, *equations.from.blocks, equations.degree, of_blocks, run);
+  const bool converged = change.converged;
+  return {converged, std::move(change)};
+}
+
+void estimate_with(const Equations& equations, const Found& found, RadiositySolution& s, Run& run) {
+  const RadiositySettings& settings = equations.settings;
+  const bool counted = settings.row_tolerance > 0 || settings.stored_factors;
+  estimate_errors(s,
+                  {*equations.from.K, equations.from.blocks.get(), equations.row_sum_before,
+                   settings.quadrature_tolerance, counted ? equations.from.row_bound : std::span<const double>(),
+                   equations.environment, found.converged, settings.order > 0 ? &found.change : nullptr},
+                  equations.scene.channel_count(), run);
+}
+
+/// What a light group does alone.  @param dark  a solution without light
+RadiositySolution solution_of(const std::string& group, const Equations& equations, const RadiositySolution& dark,
+                              Run& run) {
+  RadiositySolution s = dark;
+  for (std::size_t i = 0; i < s.exitance.size(); ++i)
+    if (equations.scene.material(s.mesh.patches()[i].surface).light_group() != group) s.exitance[i] = Spectrum::zero();
+  const Found found = solve_with(equations, s, run);
+  estimate_with(equations, found, s, run);
+  return s;
+}
+
 }  // namespace
 
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& asked) {
   require_compatible(settings);
-  const int channels = scene.channel_count();
   std::vector<StageCost> stages;
   StageClock timed(stages);
   const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
@@ -268,22 +317,17 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
     s.row_sum = repair ? K.row_sums(run) : row_sum_before;
   });
   s.rows = summary_of(s.row_sum, K.gram());
-  PolynomialChange change;
-  const bool converged = timed("solve", [&] {
-    if (settings.order == 0) return solve_both(s, scene, K, settings, run);
-    RadiositySettings of_blocks = settings;
-    of_blocks.order = order_of_blocks(settings, s.mesh.patches());
-    change = solve_polynomials(s, scene, *from.blocks, elements.degree, of_blocks, run);
-    return change.converged;
-  });
-  timed("error estimate", [&] {
-    const bool counted = settings.row_tolerance > 0 || settings.stored_factors;
-    estimate_errors(s,
-                    {K, from.blocks.get(), row_sum_before, settings.quadrature_tolerance,
-                     counted ? from.row_bound : std::span<const double>(), environment ? &*environment : nullptr,
-                     converged, settings.order > 0 ? &change : nullptr},
-                    channels, run);
-  });
+  require_row_sums(scene, s.mesh.patches(), s.row_sum, K, run);
+  RadiositySolution dark = settings.light_groups ? s : RadiositySolution(mesh::ElementMesh({}), 0);  // but for lights
+  const Equations equations{scene,           settings,       from,
+                            elements.degree, row_sum_before, environment ? &*environment : nullptr};
+  const Found found = timed("solve", [&] { return solve_with(equations, s, run); });
+  timed("error estimate", [&] { estimate_with(equations, found, s, run); });
+  if (settings.light_groups)
+    timed("light groups", [&] {
+      for (const std::string& group : measure::light_groups(scene))
+        s.of_groups.push_back(solution_of(group, equations, dark, run));
+    });
   timed("energy balance", [&] { balance_energy(s, scene, *rays, repair, run); });
   s.stages = std::move(stages);
   return s;

@@ -34,6 +34,7 @@ struct RadiositySettings {
   std::string closure = "none";           ///< or a repair of row sums by its name in closure.h
   std::uint64_t environment_rays = 1296;  ///< an element: what of it sees no other, where an open scene's closure asks
   double max_memory = 4e9;                ///< [bytes]
+  bool light_groups = false;              ///< solutions of each group alone too (measure/light_groups.h)
   std::optional<AdaptiveSettings>
       adaptive;  ///< elements are made for a goal, with polynomials; `element_size` is a start
   /// Where K comes from instead of `form_factors`, if there is such a source: entries of all pairs of these elements,
@@ -131,6 +132,8 @@ struct RadiositySolution {
   EnergyBalance energy;
   std::vector<StageCost> stages;
   double bytes = 0;  ///< memory of the operator
+  /// By the same form factors what each light group does alone, where that was asked for: without energy and stages.
+  std::vector<RadiositySolution> of_groups;
 
   /// Variance of an element's H that is its own, independent of the other elements'.
   Spectrum own_variance(std::size_t element) const {

@@ -27,7 +27,9 @@ struct Material {
   Spectrum exitance;     ///< E [W/m² | lm/m²], emitted by the front side only
   Sides sides = Sides::front;
   std::optional<Thermal> thermal = std::nullopt;
+  std::string group = {};  ///< of lights that are dimmed together; empty: the material's name
 
+  const std::string& light_group() const { return group.empty() ? name : group; }
   bool active(Side side) const { return side == Side::front || sides == Sides::both; }
   Spectrum reflectance_of(Side side) const { return active(side) ? reflectance : Spectrum::zero(); }
   Spectrum exitance_of(Side side) const { return side == Side::front ? exitance : Spectrum::zero(); }

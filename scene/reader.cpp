@@ -97,6 +97,11 @@ Scene read_scene(const std::filesystem::path& file) {
 void warn_of_darkness(Scene& scene) {
   if (scene.emitted_flux().is_zero())
     scene.warnings.push_back({scene.file.string(), "nothing emits: everything will be dark"});
+  for (const Material& material : scene.materials)
+    if (material.thermal && !material.thermal->temperature)
+      scene.warnings.push_back({scene.file.string(), "material '" + material.name +
+                                                         "' has a heat flux and no temperature: it emits nothing here; "
+                                                         "interflect exchange finds both"});
 }
 
 }  // namespace interflect::scene

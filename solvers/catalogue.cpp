@@ -45,9 +45,9 @@ std::unique_ptr<RadiositySolver> walks(const SolverSettings& settings) {
   return std::make_unique<RandomWalk>(way, score, settings);
 }
 
-template <bool regular>
+template <StochasticJacobi::Kind kind>
 std::unique_ptr<RadiositySolver> stochastic_jacobi(const SolverSettings& settings) {
-  return std::make_unique<StochasticJacobi>(regular, settings);
+  return std::make_unique<StochasticJacobi>(kind, settings);
 }
 
 }  // namespace
@@ -67,9 +67,12 @@ const std::vector<SolverEntry>& known_solvers() {
       {"over-relaxation", "Gauss-Seidel's steps times --relaxation", Needs::products, over_relaxation},
       {"southwell", "the largest residual first", Needs::symmetry, southwell},
       {"progressive", "the brightest shoots what it has: a picture after every step", Needs::symmetry, progressive},
-      {"stochastic-jacobi", "bounces by rays, in proportion to the power", Needs::walks, stochastic_jacobi<false>},
+      {"stochastic-jacobi", "bounces by rays, in proportion to the power", Needs::walks,
+       stochastic_jacobi<StochasticJacobi::Kind::incremental>},
       {"regular-stochastic-jacobi", "the same, and then bounces of all that there is", Needs::walks,
-       stochastic_jacobi<true>},
+       stochastic_jacobi<StochasticJacobi::Kind::regular>},
+      {"bidirectional-stochastic-jacobi", "the same, rays carrying light both ways", Needs::walks,
+       stochastic_jacobi<StochasticJacobi::Kind::bidirectional>},
       {"shooting-collision", "random walks from what shines, scored at every hit", Needs::walks,
        walks<Way::shooting, Score::collision>},
       {"shooting-survival", "the same, scored where they go on", Needs::walks, walks<Way::shooting, Score::survival>},

@@ -24,8 +24,7 @@ PowerDraw::Drawn PowerDraw::operator()(double u) const {
   std::size_t a = guide_[std::min(n - 1, static_cast<std::size_t>(u * static_cast<double>(n)))];
   while (a + 1 < n && cumulative_[a] <= u * all) ++a;
   while (a > 0 && !(cumulative_[a] > cumulative_[a - 1])) --a;  // by rounding, past all that sends anything
-  const double before = a == 0 ? 0 : cumulative_[a - 1];
-  return {static_cast<Index>(a), (cumulative_[a] - before) / all};
+  return {static_cast<Index>(a), probability(static_cast<Index>(a))};
 }
 
 ColumnMatrix power_of(std::span<const double> areas, ConstColumns radiosity) {

@@ -21,6 +21,10 @@ class PowerDraw {
   };
   /// @param u  in [0, 1): areas of its interval onto unknowns, so that evenly spread numbers are drawn evenly
   Drawn operator()(double u) const;
+  double probability(Index unknown) const {
+    const auto a = static_cast<std::size_t>(unknown);
+    return (cumulative_[a] - (a == 0 ? 0 : cumulative_[a - 1])) / cumulative_.back();
+  }
   bool nothing() const { return !(cumulative_.back() > 0); }
 
  private:

@@ -14,9 +14,18 @@ namespace interflect::solvers {
 ///
 /// Its mean is rho_i sum_j F_ji P_j, the power that one bounce of P reflects at i; of one column its variance, as radiosity, is
 /// V = (rho_i P / G_i b_i - b_i²) / N.
+///
+/// Both ways, the same line carries light back from i to j as well.  It could have been drawn from either end, with the
+/// densities q_j K_ij and q_i K_ij, q = p / G, of which it takes the sum (the balance heuristic): brings are
+///
+///   rho_i B_j / ((q_i + q_j) N)  to i,     rho_j B_i / ((q_i + q_j) N)  to j,     B = P / G
+///
+/// with the same means where K is symmetric, and of one column, where q = B / P, the variance
+/// V = (rho_i² P / G_i² sum_j K_ij B_j² / (B_i + B_j) - b_i²) / N: half of the other where all send alike.
 class PowerTransfer {
  public:
-  PowerTransfer(const System& system, const ColumnMatrix& power);
+  enum class Lines { one_way, both_ways };
+  PowerTransfer(const System& system, const ColumnMatrix& power, Lines lines = Lines::one_way);
 
   /// By rays first .. first + count of a sequence; brings are added, times `weight`.
   void add(const core::SampleSequence& sequence, std::uint64_t first, std::uint64_t count, double weight,
@@ -25,6 +34,7 @@ class PowerTransfer {
  private:
   const System& system_;
   const ColumnMatrix& power_;
+  Lines lines_;
   PowerDraw draw_;
 };
 

@@ -45,10 +45,12 @@ void find_worst_surface(std::span<const Judged> judged, Certificate& certificate
   double largest = -1;
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const Difference& d = differences[i];
-    if (!is(judged[i], Judged::Kind::surface) || !d.known || std::abs(d.difference()) <= largest) continue;
-    largest = std::abs(d.difference());
+    if (!is(judged[i], Judged::Kind::surface) || !d.known) continue;
+    const double relative = d.difference() == 0 ? 0 : d.difference() / d.mc;
+    if (std::abs(relative) <= largest) continue;
+    largest = std::abs(relative);
     certificate.worst_surface = judged[i].name;
-    certificate.worst_surface_difference = d.difference() == 0 ? 0 : d.difference() / d.mc;
+    certificate.worst_surface_difference = relative;
   }
 }
 
@@ -80,8 +82,9 @@ void give_remarks(std::span<const Judged> judged, const Judgement& j, double alp
   const Comparison& c = j.comparison;
   const char* name = j.reading.name.c_str();
   if (!c.beyond_chance.empty())
-    out.push_back(format("%s: %zu differences are beyond error bound and chance (|z| > %.2f), the largest at %s", name,
-                         c.beyond_chance.size(), c.z_max, judged[c.beyond_chance.front()].name.c_str()));
+    out.push_back(format("%s: %zu difference%s beyond error bound and chance (|z| > %.2f), the largest at %s", name,
+                         c.beyond_chance.size(), c.beyond_chance.size() == 1 ? " is" : "s are", c.z_max,
+                         judged[c.beyond_chance.front()].name.c_str()));
   const double n = static_cast<double>(c.noisy);
   if (c.noisy >= 30 && c.mean_z_square < 1 - normal_upper_quantile(alpha) * std::sqrt(2 / n))
     out.push_back(format("%s: the mean of z^2 is %.2f: standard errors look overestimated", name, c.mean_z_square));

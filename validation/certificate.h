@@ -55,7 +55,7 @@ struct Certificate {
   std::size_t surfaces = 0, elements = 0, sensors = 0;  ///< measurements of each kind
   std::size_t comparisons = 0;          ///< among which alpha is divided: every measurement and one mean, per reading
   std::vector<Judgement> judgements;    ///< the weighted value first, then the channels
-  std::string worst_surface;            ///< the surface whose weighted H differs most
+  std::string worst_surface;            ///< the surface whose weighted H differs most, as a part of itself
   double worst_surface_difference = 0;  ///< (FEM - MC) / MC there
   EnergyBalance fem_energy, mc_energy;
   std::vector<ExpectedCheck> expected;

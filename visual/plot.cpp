@@ -104,9 +104,10 @@ void draw_axes(Canvas& canvas, const Frame& frame, const Plot& plot) {
   canvas.text(plot.x_label, (left + width - right) / 2, height - 14, 13, true);
 }
 
-/// Dots and rings by turns: neighbours of a list may lie on each other, and both show then.
+/// Dots and rings by turns: neighbours of a list may lie on each other, and both show then.  Curves that have one colour
+/// have different ones.
 void draw_marker(Canvas& canvas, double x, double y, std::size_t curve, Colour colour) {
-  if (curve % 2 == 0)
+  if ((curve + curve / palette.size()) % 2 == 0)
     canvas.dot(x, y, 4, colour);
   else
     canvas.ring(x, y, 6, 1, colour);
@@ -114,13 +115,17 @@ void draw_marker(Canvas& canvas, double x, double y, std::size_t curve, Colour c
 
 void draw_curve(Canvas& canvas, const Frame& frame, const Plot& plot, std::size_t which, Colour colour) {
   const Plot::Curve& curve = plot.curves[which];
+  constexpr double apart = 14;  // pixels between markers: of many points they would make a band
   bool started = false;
-  double from_x = 0, from_y = 0;
+  double from_x = 0, from_y = 0, marked_x = 0, marked_y = 0;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     if (!drawable(curve.x[k], curve.y[k])) continue;
     const double x = frame.column(curve.x[k]), y = frame.row(curve.y[k]);
     if (started) canvas.line(from_x, from_y, x, y, 0.8, colour);
-    draw_marker(canvas, x, y, which, colour);
+    if (!started || std::hypot(x - marked_x, y - marked_y) >= apart) {
+      draw_marker(canvas, x, y, which, colour);
+      marked_x = x, marked_y = y;
+    }
     from_x = x, from_y = y, started = true;
   }
 }

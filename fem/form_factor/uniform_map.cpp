@@ -16,12 +16,17 @@ double invert_linear(double at_0, double at_1, double u) {
 }  // namespace
 
 UniformMap::UniformMap(std::span<const Vec3> ring)
-    : triangle_(ring.size() == 3),
+    : shape_(ring.size() == 3 ? Shape::triangle : Shape::quad),
       corner_(ring[0]),
       along_s_(ring[1] - corner_),
-      along_t_(ring[triangle_ ? 2 : 3] - corner_) {
-  if (triangle_) return;
+      along_t_(ring[shape_ == Shape::triangle ? 2 : 3] - corner_) {
+  if (shape_ == Shape::triangle) return;
   twist_ = ring[2] - ring[1] - along_t_;
+  constexpr double rounding = 1e-13;
+  if (twist_.norm() <= rounding * std::min(along_s_.norm(), along_t_.norm())) {
+    shape_ = Shape::parallelogram;
+    return;
+  }
   const Vec3 normal = (ring[2] - ring[0]).cross(ring[3] - ring[1]);
   jacobian_ = normal.dot(along_s_.cross(along_t_)) / normal.squaredNorm();
   jacobian_s_ = normal.dot(along_s_.cross(twist_)) / normal.squaredNorm();
@@ -29,7 +34,8 @@ UniformMap::UniformMap(std::span<const Vec3> ring)
 }
 
 Vec3 UniformMap::operator()(double u, double v) const {
-  if (triangle_) {
+  if (shape_ == Shape::parallelogram) return corner_ + u * along_s_ + v * along_t_;
+  if (shape_ == Shape::triangle) {
     const double root = std::sqrt(u);
     return corner_ + root * (1 - v) * along_s_ + root * v * along_t_;
   }

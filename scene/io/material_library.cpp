@@ -37,7 +37,7 @@ void require_known(const JsonNode& node) {
   }
   if (node.has("transmittance"))
     node.at("transmittance").fail("this version does not know transmittance: materials are opaque");
-  node.only({"type", "reflectance", "exitance", "flux", "sides", "emissivity", "temperature", "heat_flux"});
+  node.only({"type", "reflectance", "exitance", "flux", "sides", "emissivity", "temperature", "heat_flux", "group"});
 }
 
 /// A grey surface that exchanges heat: 1 - emissivity is its reflectance, and what it emits its temperature says.
@@ -133,6 +133,8 @@ MaterialLibrary::Entry MaterialLibrary::read_entry(const std::string& name, cons
   require_known(node);
   Entry entry;
   entry.material.name = name;
+  entry.material.group = node.has("group") ? node.at("group").string() : name;
+  if (entry.material.group.empty()) node.at("group").fail("a light group needs a name");
   if (node.has("emissivity"))
     set_thermal(read_thermal(node), channels, entry.material);
   else

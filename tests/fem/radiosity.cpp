@@ -318,6 +318,32 @@ TEST(Radiosity, refuses_what_it_cannot_do_in_one_line) {
   EXPECT_THROW(solve_radiosity(scene, settings, run.get()), core::InputError);
 }
 
+// A row that adds up to more than 1 is none of view factors, wherever it comes from.
+TEST(Radiosity, refuses_rows_that_send_more_than_there_is) {
+  const auto scene = cube(.5);
+  core::LocalRun run(1, 1);
+  RadiositySettings settings;
+  settings.element_size = .5;
+  const auto scaled_by = [&](double factor) {
+    settings.stored_factors = [factor](const scene::Scene&, std::span<const scene::SurfacePatch> patches,
+                                       ExchangeSink& sink) {
+      double area = 0;
+      for (const auto& patch : patches) area += patch.area;
+      for (std::size_t i = 0; i < patches.size(); ++i)
+        for (std::size_t j = i + 1; j < patches.size(); ++j)
+          sink.add(Index(i), Index(j), {factor * patches[i].area * patches[j].area / area, 0, 0});
+    };
+    return solve_radiosity(scene, settings, run.get());
+  };
+  EXPECT_NO_THROW(scaled_by(1.05));
+  try {
+    scaled_by(1.3);
+    FAIL() << "1.25 leaves each element";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no more than 1 can be"), std::string::npos) << error.what();
+  }
+}
+
 // Facets that a mesh brings are elements whatever the size: the way out that is named must be one.
 TEST(Radiosity, refuses_too_many_elements_with_a_way_out_that_works) {
   scene::SceneBuilder builder({"y"});

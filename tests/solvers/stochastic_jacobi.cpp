@@ -33,10 +33,37 @@ TEST(PowerTransfer, has_the_mean_and_the_variance_that_are_known) {
   }
 }
 
+// Lines that carry light both ways: the same means, and a variance that is known too, and smaller.
+TEST(PowerTransfer, carries_light_both_ways) {
+  const SixFaces cube;
+  const System system = cube.system();
+  ColumnMatrix power(6, 1);
+  for (Index i = 0; i < 6; ++i) power(i, 0) = radiosity[i];
+  const PowerTransfer transfer(system, power, PowerTransfer::Lines::both_ways);
+  const auto sequence = core::make_sequence("independent", 4);
+  core::ScalarMoments scores[6];
+  ColumnMatrix reflected(6, 1);
+  for (std::uint64_t k = 0; k < 400000; ++k) {
+    reflected.setZero();
+    transfer.add(*sequence, k, 1, 1, reflected);
+    for (Index i = 0; i < 6; ++i) scores[i].add(reflected(i, 0));
+  }
+  for (Index i = 0; i < 6; ++i) {
+    const double rho = cube.rho(i, 0), b = radiosity[i] - cube.e(i, 0);
+    double sum = 0;
+    for (Index j = 0; j < 6; ++j)
+      sum += cube.K.matrix()(i, j) * power(j, 0) * power(j, 0) / (power(i, 0) + power(j, 0));
+    const double known = rho * rho * power.sum() * sum - b * b;
+    EXPECT_NEAR(scores[i].mean(), b, 4.5 * scores[i].standard_error()) << i;
+    EXPECT_NEAR(scores[i].variance() / known, 1, .03) << i;
+    EXPECT_LT(known, rho * power.sum() * b - b * b) << "one way";
+  }
+}
+
 // Of many short solves: none is off in the mean, however few rays its last bounces have.
 TEST(StochasticJacobi, is_unbiased_with_few_rays) {
   const SixFaces cube;
-  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi"})
+  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi", "bidirectional-stochastic-jacobi"})
     for (const char* sequence : {"independent", "stratified", "sobol"}) {
       SolverSettings settings;
       settings.replications = 4000;
@@ -54,7 +81,7 @@ TEST(StochasticJacobi, is_unbiased_with_few_rays) {
 // Noise falls with the rays: 16 times as many, a quarter of it.
 TEST(StochasticJacobi, is_a_quarter_as_noisy_by_sixteen_times_the_rays) {
   const SixFaces cube;
-  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi"}) {
+  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi", "bidirectional-stochastic-jacobi"}) {
     double noise[2];
     for (const int more : {0, 1}) {
       SolverSettings settings;
