@@ -240,12 +240,11 @@ void write_field(const SolvedScene& solved, const std::filesystem::path& folder,
 
 void write_tables_and_field(const SolvedScene& solved, const std::filesystem::path& folder, bool pictures) {
   const RadiositySolution& s = solved.solution;
-  const int channels = solved.scene.channel_count();
   results::write_surfaces_csv(
       folder / "surfaces.csv",
-      results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), channels);
+      results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), solved.scene);
   results::write_sensors_csv(
-      folder / "sensors.csv", solved.points, solved.at_points, channels,
+      folder / "sensors.csv", solved.points, solved.at_points, solved.scene,
       solved.bounds ? std::span<const Interval>(solved.bounds->at_points) : std::span<const Interval>());
   write_field(solved, folder, pictures);
 }

@@ -38,9 +38,8 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run
   for (std::size_t k = 0; k < sides.size(); ++k)
     rows.push_back(
         results::surface_row(scene, sides[k].first, sides[k].second, scaled(found[k], 1 / scene.area(sides[k].first))));
-  results::write_surfaces_csv(options.estimates / "surfaces.csv", rows, scene.channel_count());
-  results::write_sensors_csv(options.estimates / "sensors.csv", points, std::span(found).subspan(sides.size()),
-                             scene.channel_count());
+  results::write_surfaces_csv(options.estimates / "surfaces.csv", rows, scene);
+  results::write_sensors_csv(options.estimates / "sensors.csv", points, std::span(found).subspan(sides.size()), scene);
 }
 
 /// What there is to tell at the end.

@@ -77,13 +77,12 @@ std::string expected_text(const validation::ExpectedCheck& e) {
 
 void write_traced(const SolvedScene& solved, std::span<const Judged> judged, const Certificate& certificate,
                   const std::filesystem::path& out) {
-  const int channels = solved.scene.channel_count();
   write_field(solved, judged, certificate, out / "validation.vtu");
-  results::write_surfaces_csv(out / "traced_surfaces.csv", traced_rows(solved, judged), channels);
+  results::write_surfaces_csv(out / "traced_surfaces.csv", traced_rows(solved, judged), solved.scene);
   std::vector<Estimate> traced_points;
   for (const Judged& j : judged)
     if (j.kind == Judged::Kind::sensor) traced_points.push_back(j.mc);
-  results::write_sensors_csv(out / "traced_sensors.csv", solved.points, traced_points, channels);
+  results::write_sensors_csv(out / "traced_sensors.csv", solved.points, traced_points, solved.scene);
 }
 
 results::Record write_records(const SolvedScene& solved, std::span<const Judged> judged, const Certificate& certificate,

@@ -42,48 +42,59 @@ SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scen
           irradiance.value, error};
 }
 
-std::string surfaces_csv(std::span<const SurfaceRow> rows, int channels) {
+std::string surfaces_csv(std::span<const SurfaceRow> rows, const scene::Scene& scene) {
+  const int channels = scene.channel_count();
   Csv csv;
   csv.text("name")
       .text("area")
       .headings("radiosity", channels)
       .headings("irradiance", channels)
       .headings("error", channels);
+  for (const char* weighed : {"radiosity", "irradiance", "error"}) csv.text(weighed);
   csv.end_line();
   for (const SurfaceRow& row : rows) {
     csv.text(row.name).number(row.area).numbers(row.radiosity, channels).numbers(row.irradiance, channels);
-    csv.numbers(row.error, channels).end_line();
+    csv.numbers(row.error, channels);
+    for (const Spectrum& value : {row.radiosity, row.irradiance, row.error}) csv.number(scene.weigh(value));
+    csv.end_line();
   }
   return csv.str();
 }
 
-void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, int channels) {
-  write_atomically(file, surfaces_csv(rows, channels));
+void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows,
+                        const scene::Scene& scene) {
+  write_atomically(file, surfaces_csv(rows, scene));
 }
 
-std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels,
-                        std::span<const Interval> bounds) {
+std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values,
+                        const scene::Scene& scene, std::span<const Interval> bounds) {
   if (points.size() != values.size()) throw core::PreconditionError("sensors_csv: one value per point expected");
   if (!bounds.empty() && points.size() != bounds.size())
     throw core::PreconditionError("sensors_csv: bounds of all points or of none expected");
+  const int channels = scene.channel_count();
   Csv csv;
   for (const char* heading : {"sensor", "index", "x", "y", "z", "nx", "ny", "nz"}) csv.text(heading);
   csv.headings("value", channels).headings("error", channels);
   if (!bounds.empty()) csv.headings("lower", channels).headings("upper", channels);
+  csv.text("value").text("error");
+  if (!bounds.empty()) csv.text("lower").text("upper");
   csv.end_line();
   for (std::size_t i = 0; i < points.size(); ++i) {
     csv.text(points[i].sensor).integer(points[i].index);
     for (const Vec3& v : {points[i].at.position, points[i].at.normal}) csv.number(v.x()).number(v.y()).number(v.z());
-    csv.numbers(values[i].value, channels).numbers(error_95(values[i]), channels);
+    const Spectrum error = error_95(values[i]);
+    csv.numbers(values[i].value, channels).numbers(error, channels);
     if (!bounds.empty()) csv.numbers(bounds[i].lower, channels).numbers(bounds[i].upper, channels);
+    csv.number(scene.weigh(values[i].value)).number(scene.weigh(error));
+    if (!bounds.empty()) csv.number(scene.weigh(bounds[i].lower)).number(scene.weigh(bounds[i].upper));
     csv.end_line();
   }
   return csv.str();
 }
 
 void write_sensors_csv(const std::filesystem::path& file, std::span<const measure::SensorPoint> points,
-                       std::span<const Estimate> values, int channels, std::span<const Interval> bounds) {
-  write_atomically(file, sensors_csv(points, values, channels, bounds));
+                       std::span<const Estimate> values, const scene::Scene& scene, std::span<const Interval> bounds) {
+  write_atomically(file, sensors_csv(points, values, scene, bounds));
 }
 
 }  // namespace interflect::results

@@ -35,15 +35,18 @@ std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::Ele
 SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side,
                        const Estimate& irradiance);
 
-/// `name,area,radiosity_0,..,irradiance_0,..,error_0,..`, a line a row.
-std::string surfaces_csv(std::span<const SurfaceRow> rows, int channels);
-void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, int channels);
+/// `name,area,radiosity_0,..,irradiance_0,..,error_0,..,radiosity,irradiance,error`, a line a row: of each channel of the
+/// scene, and weighed over them (lx).
+std::string surfaces_csv(std::span<const SurfaceRow> rows, const scene::Scene& scene);
+void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, const scene::Scene& scene);
 
-/// `sensor,index,x,y,z,nx,ny,nz,value_0,..,error_0,..`, a line a point; with bounds also `lower_0,..,upper_0,..`.
+/// `sensor,index,x,y,z,nx,ny,nz,value_0,..,error_0,..,value,error`, a line a point; with bounds `lower_0,..,upper_0,..`
+/// before the last two, and `lower,upper` behind them.
 /// @param bounds  proved ones of the points; or none
-std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values, int channels,
-                        std::span<const Interval> bounds = {});
+std::string sensors_csv(std::span<const measure::SensorPoint> points, std::span<const Estimate> values,
+                        const scene::Scene& scene, std::span<const Interval> bounds = {});
 void write_sensors_csv(const std::filesystem::path& file, std::span<const measure::SensorPoint> points,
-                       std::span<const Estimate> values, int channels, std::span<const Interval> bounds = {});
+                       std::span<const Estimate> values, const scene::Scene& scene,
+                       std::span<const Interval> bounds = {});
 
 }  // namespace interflect::results

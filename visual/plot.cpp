@@ -14,7 +14,7 @@ namespace {
 
 using results::Colour;
 
-constexpr int width = 900, height = 620, left = 90, right = 230, top = 50, bottom = 60;  // pixels
+constexpr int width = 970, height = 620, left = 90, right = 300, top = 50, bottom = 60;  // pixels
 constexpr Colour black{0, 0, 0}, grey{225, 225, 225};
 /// Ten colours that differ in lightness as well as in hue.
 constexpr std::array<Colour, 10> palette{Colour{31, 119, 180}, {214, 39, 40},  {44, 160, 44}, {148, 103, 189},

@@ -43,16 +43,25 @@ Spectrum rgb(double r, double g, double b) {
   return s;
 }
 
+/// A scene of so many channels, which weigh alike.
+scene::Scene of_channels(std::vector<std::string> names) {
+  scene::Scene scene;
+  scene.channels = std::move(names);
+  for (int c = 0; c < scene.channel_count(); ++c) scene.weights[c] = 1.0 / scene.channel_count();
+  return scene;
+}
+scene::Scene grey() { return of_channels({"y"}); }
+
 }  // namespace
 
 TEST(Tables, names_of_every_kind_survive_csv) {
   const std::string names[] = {"plain", "a,b", "say \"hi\"", "two\nlines", "\"", "", "ümlaut", " spaces "};
   std::vector<SurfaceRow> rows;
   for (const std::string& name : names) rows.push_back({name, 1, Spectrum(1), Spectrum(2), Spectrum(3)});
-  const auto lines = parsed(surfaces_csv(rows, 1));
+  const auto lines = parsed(surfaces_csv(rows, grey()));
   ASSERT_EQ(lines.size(), rows.size() + 1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ASSERT_EQ(lines[i + 1].size(), 5u);
+    ASSERT_EQ(lines[i + 1].size(), 8u);
     EXPECT_EQ(lines[i + 1][0], names[i]);
   }
 }
@@ -61,27 +70,30 @@ TEST(Tables, numbers_keep_twelve_digits_and_infinity_is_inf) {
   const double inf = std::numeric_limits<double>::infinity();
   const auto lines = parsed(surfaces_csv(
       std::vector<SurfaceRow>{{"a", 1.0 / 3, rgb(1e-7 / 3, 2e9 / 3, -0.0), rgb(inf, -inf, std::nan("")), rgb(1, 2, 3)}},
-      3));
+      of_channels({"r", "g", "b"})));
   EXPECT_NEAR(std::stod(lines[1][1]) * 3, 1, 1e-11);
   EXPECT_NEAR(std::stod(lines[1][2]) * 3e7, 1, 1e-11);
   EXPECT_NEAR(std::stod(lines[1][3]) * 1.5e-9, 1, 1e-11);
   EXPECT_EQ(lines[1][5], "inf");
   EXPECT_EQ(lines[1][6], "-inf");
   EXPECT_EQ(lines[1][7].substr(0, 3), "nan");
+  EXPECT_EQ(lines[1].back(), "2") << "the channels' errors, weighed";
 }
 
 TEST(Tables, the_headings_are_the_agreed_ones) {
-  EXPECT_EQ(surfaces_csv({}, 2), "name,area,radiosity_0,radiosity_1,irradiance_0,irradiance_1,error_0,error_1\n");
-  EXPECT_EQ(sensors_csv({}, {}, 1), "sensor,index,x,y,z,nx,ny,nz,value_0,error_0\n");
+  EXPECT_EQ(surfaces_csv({}, of_channels({"a", "b"})),
+            "name,area,radiosity_0,radiosity_1,irradiance_0,irradiance_1,error_0,error_1,radiosity,irradiance,error\n");
+  EXPECT_EQ(sensors_csv({}, {}, grey()), "sensor,index,x,y,z,nx,ny,nz,value_0,error_0,value,error\n");
 }
 
 TEST(Tables, bounds_have_columns_of_their_own) {
   const std::vector<measure::SensorPoint> points{{"desk", 0, {{1, 2, 3}, Vec3::UnitZ(), {}}}};
   const std::vector<Estimate> values{{Spectrum(5.0), Spectrum(), Spectrum(1.0), Claim::estimated, 0}};
   const std::vector<Interval> bounds{{Spectrum(3.0), Spectrum(7.0)}};
-  EXPECT_EQ(sensors_csv(points, values, 1, bounds),
-            "sensor,index,x,y,z,nx,ny,nz,value_0,error_0,lower_0,upper_0\ndesk,0,1,2,3,0,0,1,5,1,3,7\n");
-  EXPECT_THROW(sensors_csv(points, values, 1, std::vector<Interval>(2)), core::PreconditionError);
+  EXPECT_EQ(sensors_csv(points, values, grey(), bounds),
+            "sensor,index,x,y,z,nx,ny,nz,value_0,error_0,lower_0,upper_0,value,error,lower,upper\n"
+            "desk,0,1,2,3,0,0,1,5,1,3,7,5,1,3,7\n");
+  EXPECT_THROW(sensors_csv(points, values, grey(), std::vector<Interval>(2)), core::PreconditionError);
 }
 
 TEST(Tables, a_line_a_side_has_area_means) {
@@ -121,9 +133,10 @@ TEST(Tables, sensors_are_written_with_place_direction_and_error) {
   const std::vector<measure::SensorPoint> points{{"desk", 0, {Vec3(1, 2, 0.75), Vec3(0, 0, 1), {}}},
                                                  {"desk", 1, {Vec3(1.5, 2, 0.75), Vec3(0, 0, 1), {}}}};
   const std::vector<Estimate> values{{Spectrum(400), Spectrum(1), Spectrum(2), Claim::estimated, 5}, Estimate{}};
-  write_sensors_csv(scratch / "sensors.csv", points, values, 1);
+  write_sensors_csv(scratch / "sensors.csv", points, values, grey());
   const auto lines = parsed(test::read_file(scratch / "sensors.csv"));
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ(lines[1], (std::vector<std::string>{"desk", "0", "1", "2", "0.75", "0", "0", "1", "400", "3.95996398454"}));
+  EXPECT_EQ(lines[1], (std::vector<std::string>{"desk", "0", "1", "2", "0.75", "0", "0", "1", "400", "3.95996398454",
+                                                "400", "3.95996398454"}));
   EXPECT_EQ(lines[2].back(), "inf");
 }

@@ -29,7 +29,7 @@ visual::Plot plot(std::vector<double> x, std::vector<double> y) {
 // The frame spans 90 .. 670 across and 560 .. 50 up: (1, 1) of decades 0.1 .. 10 lies in its middle.
 TEST(Plot, puts_points_where_their_logarithms_are) {
   const core::Image picture = visual::plot_picture(plot({0.1, 1, 10}, {0.1, 1, 10}));
-  EXPECT_EQ(picture.width, 900);
+  EXPECT_EQ(picture.width, 970);
   EXPECT_NEAR(picture.at(380, 305, 0), 31 / 255.0, 1e-6);
   EXPECT_NEAR(picture.at(380, 305, 2), 180 / 255.0, 1e-6);
   EXPECT_NEAR(picture.at(235, 432, 0), 31 / 255.0, 0.2);  // on the line between
