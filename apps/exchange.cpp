@@ -83,7 +83,9 @@ results::Record record_of(const ThermalExchange& exchange, const ExchangeOptions
       .add("environment_K", options.environment)
       .add("elements", static_cast<std::int64_t>(exchange.solution.mesh.size()))
       .add("net_flux_W", exchange.emitted)
+      .add("net_flux_error_W", exchange.emitted_error)
       .add("to_environment_W", exchange.to_environment)
+      .add("to_environment_error_W", exchange.to_environment_error)
       .add("settings", settings_record(options.settings, exchange.solution))
       .add("form_factors", form_factor_record(exchange.solution))
       .add("surfaces", std::move(surfaces));
@@ -157,8 +159,10 @@ ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common,
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)
-    std::printf("%s\nsum of Q %.6g W; to the environment %.6g W, by rays\nwritten to %s\n", table_of(found).c_str(),
-                found.emitted, found.to_environment, options.out.string().c_str());
+    std::printf("%s\nsum of Q %s W (estimated); to the environment %s W by rays (their noise alone)\nwritten to %s\n",
+                table_of(found).c_str(), with_error(found.emitted, found.emitted_error, true).c_str(),
+                with_error(found.to_environment, found.to_environment_error, true).c_str(),
+                options.out.string().c_str());
   return shortfalls_of(found.solution, options.settings).empty() ? success : not_met;
 }
 

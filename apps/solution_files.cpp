@@ -102,7 +102,10 @@ results::Record::List sensor_records(const SolvedScene& solved) {
         .add("mean", s.mean)
         .add("maximum", s.maximum)
         .add("uniformity", s.uniformity())
-        .add("error", s.error);
+        .add("error", s.error)
+        .add("minimum_error", s.minimum_error)
+        .add("maximum_error", s.maximum_error)
+        .add("uniformity_error", s.uniformity_error());
     if (solved.bounds) record.add("proved_error", proved_error(solved, *solved.bounds, s.sensor, s.mean));
     list.push_back(std::move(record));
   }
@@ -262,8 +265,12 @@ std::string sensors_text(const SolvedScene& solved) {
   Table table({"sensor", "points", "min " + unit, "mean " + unit, "max " + unit, "U0"});
   std::string means;
   for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points)) {
-    table.add({s.sensor, std::to_string(s.points), core::format("%.4g", s.minimum), core::format("%.5g", s.mean),
-               core::format("%.4g", s.maximum), core::format("%.2f", s.uniformity())});
+    const auto with_error = [](double value, double error) {
+      return core::format("%.4g +- %.2g", value, core::rounded_up(error, 2));
+    };
+    table.add({s.sensor, std::to_string(s.points), with_error(s.minimum, s.minimum_error), core::format("%.5g", s.mean),
+               with_error(s.maximum, s.maximum_error),
+               core::format("%.2f +- %.2g", s.uniformity(), core::rounded_up(s.uniformity_error(), 1))});
     if (goal && goal->name == s.sensor && !solved.bounds) continue;  // which is known better (adaptation_text)
     std::optional<double> proved;
     if (solved.bounds) proved = proved_error(solved, *solved.bounds, s.sensor, s.mean);

@@ -113,11 +113,12 @@ std::vector<ThermalState> states_of(const scene::Scene& scene, const RadiositySo
 ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment,
                                Run& run) {
   require_thermal(scene);
-  ThermalExchange out{{}, {}, 0, 0, solve_radiosity(shifted(scene, environment), settings, run)};
+  ThermalExchange out{{}, {}, 0, 0, 0, 0, solve_radiosity(shifted(scene, environment), settings, run)};
   const RadiositySolution& s = out.solution;
   for (const mesh::ElementMesh::Part& part : s.mesh.parts()) {
     out.surfaces.push_back(surface_of(scene, s, part, environment));
     out.emitted += out.surfaces.back().area * out.surfaces.back().heat_flux;
+    out.emitted_error += out.surfaces.back().area * out.surfaces.back().heat_flux_error;
   }
   out.elements = states_of(scene, s, environment);
   for (std::size_t k = 0; k < out.surfaces.size(); ++k) {
@@ -127,6 +128,7 @@ ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySetting
         first, first + part.count, [](const ThermalState& state) { return std::isnan(state.temperature); });
   }
   out.to_environment = s.energy.escaped[0] + s.energy.on_backs[0];
+  out.to_environment_error = normal_95 * s.energy.split_error[0];
   return out;
 }
 

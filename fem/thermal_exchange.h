@@ -31,6 +31,8 @@ struct ThermalExchange {
   std::vector<ThermalState> elements;  ///< of solution.mesh; a temperature is NaN where more is taken than arrives
   double emitted = 0;                  ///< sum q A over the surfaces, net [W]: what goes to the environment
   double to_environment = 0;           ///< the same found from what leaves through openings, and onto black backs [W]
+  double emitted_error = 0;            ///< of the sum, by those of the surfaces: estimated, 95 % [W]
+  double to_environment_error = 0;     ///< of what rays found of it, 95 % [W]; not of the radiosity that they carry
   RadiositySolution solution;
 };
 
