@@ -4,6 +4,7 @@
 
 #include "apps/equation_residual.h"
 #include "apps/goals.h"
+#include "apps/leftovers.h"
 #include "apps/proved_bounds.h"
 #include "apps/read_scene.h"
 #include "apps/smooth_field.h"
@@ -233,8 +234,13 @@ void write_summary(const SolvedScene& solved, const SolveOptions& options, const
 
 void write_field(const SolvedScene& solved, const std::filesystem::path& folder, [[maybe_unused]] bool pictures) {
   const RadiositySolution& s = solved.solution;
-  results::write_vtu(folder / "solution.vtu", s.mesh, fields_of(solved));
   const auto field = smooth_field(s);
+  std::vector<std::string> not_written;
+  if (!field) not_written.emplace_back("solution_smooth");
+  if (!solved.bounds || !pictures) not_written.emplace_back("bounds");
+  if (!pictures) not_written.insert(not_written.end(), {"radiosity", "irradiance"});
+  remove_leftovers(folder, not_written);
+  results::write_vtu(folder / "solution.vtu", s.mesh, fields_of(solved));
   if (field) write_smooth_field(folder / "solution_smooth.vtu", *field, solved.scene);
 #ifdef INTERFLECT_WITH_VTK
   if (pictures) write_field_pictures(solved, field ? &*field : nullptr, folder);
@@ -254,6 +260,9 @@ void write_tables_and_field(const SolvedScene& solved, const std::filesystem::pa
 
 void write_solution(const SolvedScene& solved, const SolveOptions& options, const CommonOptions& common,
                     const Run& run) {
+  std::vector<std::string> later{"validation", "traced_surfaces", "traced_sensors"};
+  if (!options.settings.light_groups) later.emplace_back("light_groups");
+  remove_leftovers(options.out, later);
   write_summary(solved, options, common, run);
   write_tables_and_field(solved, options.out, options.pictures);
 }

@@ -148,13 +148,15 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
   const fem::RadiositySettings settings = settings_of(options, scene, points);
   const fem::Forecast forecast = fem::forecast(scene, settings, asked);
   auto folder = std::make_unique<results::OutputDirectory>(options.out);
-  if (!common.json && !common.quiet)
-    std::printf("bounding box %s\n%s\n", box_text(scene).c_str(),
-                options.target_error > 0
-                    ? core::format("elements are made for '%s' until its error is below %.2g %%",
-                                   settings.adaptive->goal.name.c_str(), 100 * options.target_error)
-                          .c_str()
-                    : describe(forecast).c_str());
+  if (!common.json && !common.quiet) {
+    const std::string plan =
+        options.target_error > 0
+            ? core::format("elements are made for '%s' until its error is below %.2g %%; the first pass: ",
+                           settings.adaptive->goal.name.c_str(), 100 * options.target_error)
+            : "";
+    std::printf("bounding box %s\n%s%s%s\n", box_text(scene).c_str(), plan.c_str(), describe(forecast).c_str(),
+                options.bounds ? ", and bounds, which take far longer" : "");
+  }
   std::fflush(stdout);
   auto solution = fem::solve_radiosity(scene, settings, asked);
   const auto& made = solution.adaptation;

@@ -404,6 +404,28 @@ std::string office_with(const TemporaryFolder& folder, const std::string& flux_o
   return file;
 }
 
+// Nothing that is another run's looks like a part of this one's; what is not the program's stays.
+TEST(Solve, removes_what_an_earlier_run_left) {
+  const TemporaryFolder folder;
+  const auto solve = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"solve", shipped_scene("cube"), "--element-size", "0.5", "-o", folder / "out"};
+    all.insert(all.end(), more.begin(), more.end());
+    return interflect(all);
+  };
+  ASSERT_EQ(solve({"--light-groups"}).status, 0);
+  const std::filesystem::path out = folder.path() / "out";
+  for (const char* file : {"validation.json", "validation_2.png", "bounds_2.png", "traced_sensors.csv", "notes.txt",
+                           "bounds_of_mine.png", "validation.txt"})
+    std::ofstream(out / file) << "earlier";
+  ASSERT_TRUE(std::filesystem::exists(out / "light_groups.h5"));
+  ASSERT_EQ(solve({"--no-pictures"}).status, 0);
+  for (const char* file : {"validation.json", "validation_2.png", "bounds_2.png", "traced_sensors.csv",
+                           "light_groups.h5", "radiosity.png"})
+    EXPECT_FALSE(std::filesystem::exists(out / file)) << file;
+  for (const char* file : {"notes.txt", "bounds_of_mine.png", "validation.txt", "solution.vtu", "summary.json"})
+    EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
+}
+
 // What is dimmed is what a solve of the dimmed scene is.
 TEST(Dim, is_a_solve_of_the_dimmed_scene) {
   const TemporaryFolder folder;
