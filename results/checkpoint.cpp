@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "results/atomic_file.h"
 #include "results/digest.h"
 #include "results/hdf5_file.h"
 
@@ -50,9 +49,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   for (const Checkpoint::Matrix& matrix : checkpoint.matrices)
     room.apparent += sizeof(double) * static_cast<std::uint64_t>(matrix.values.size());
   room.at_once = room.apparent;
-  const std::filesystem::path unborn = file.string() + ".partial";
-  try {
-    Hdf5File stored = Hdf5File::create(unborn, room);
+  write_whole(file, room, [&](Hdf5File& stored) {
     stored.write_note("format", format_name);
     stored.write_note("digest", checkpoint.digest);
     stored.write_note("settings", checkpoint.settings);
@@ -62,13 +59,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
       stored.make_doubles(matrix.name, sizes);
       stored.write(matrix.name, {0, 0}, sizes, matrix.values.data());
     }
-    stored.flush();
-  } catch (const core::InputError&) {
-    std::error_code error;
-    std::filesystem::remove(unborn, error);
-    throw;
-  }
-  keep_as(unborn, file);
+  });
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file, const Checkpoint& expected) {

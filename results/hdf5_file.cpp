@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "results/atomic_file.h"
 
 namespace interflect::results {
 
@@ -390,6 +391,21 @@ Hdf5File::Sizes Hdf5File::sizes_of(const std::string& name) const {
 void Hdf5File::flush() {
   const Turn turn;
   writing(path_)(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+}
+
+void write_whole(const std::filesystem::path& file, const Hdf5File::Room& room,
+                 const std::function<void(Hdf5File&)>& fill) {
+  const std::filesystem::path unborn = file.string() + ".partial";
+  try {
+    Hdf5File stored = Hdf5File::create(unborn, room);
+    fill(stored);
+    stored.flush();
+  } catch (...) {
+    std::error_code error;
+    std::filesystem::remove(unborn, error);
+    throw;
+  }
+  keep_as(unborn, file);
 }
 
 }  // namespace interflect::results

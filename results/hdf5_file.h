@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -81,5 +82,10 @@ class Hdf5File {
   std::filesystem::path path_;
   std::int64_t file_;
 };
+
+/// A file that is there whole or not at all: filled under another name, which is renamed; a fill that fails leaves nothing.
+/// @throws core::InputError  it cannot be written
+void write_whole(const std::filesystem::path& file, const Hdf5File::Room& room,
+                 const std::function<void(Hdf5File&)>& fill);
 
 }  // namespace interflect::results

@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/format.h"
-#include "results/atomic_file.h"
 #include "results/hdf5_file.h"
 
 namespace interflect::results {
@@ -109,9 +108,7 @@ void write_light_groups(const std::filesystem::path& file, const LightGroups& al
   Hdf5File::Room room;
   room.apparent += sizeof(double) * (n * 15 + all.groups.size() * of_group);
   room.at_once = room.apparent;
-  const std::filesystem::path unborn = file.string() + ".partial";
-  try {
-    Hdf5File stored = Hdf5File::create(unborn, room);
+  write_whole(file, room, [&](Hdf5File& stored) {
     stored.write_note("format", format_name);
     stored.write_note("scene", all.scene_file);
     stored.write_note("digest", all.digest);
@@ -131,13 +128,7 @@ void write_light_groups(const std::filesystem::path& file, const LightGroups& al
       write_spectra(stored, part(g, "field_error"), group.field_error, channels);
       write_points(stored, g, group.at_points, channels);
     }
-    stored.flush();
-  } catch (const core::InputError&) {
-    std::error_code error;
-    std::filesystem::remove(unborn, error);
-    throw;
-  }
-  keep_as(unborn, file);
+  });
 }
 
 LightGroups read_light_groups(const std::filesystem::path& file) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <cmath>
 
 #include "core/moments.h"
@@ -12,24 +14,31 @@ namespace {
 
 // docs/truths.md 1.18: the variance of a ray, of one bounce of the solution.  By 400 000 rays within five of its own
 // standard errors, sqrt(kurtosis / n), about 1 %.
-TEST(PowerTransfer, has_the_mean_and_the_variance_that_are_known) {
-  const SixFaces cube;
-  const System system = cube.system();
-  ColumnMatrix power(6, 1);
-  for (Index i = 0; i < 6; ++i) power(i, 0) = radiosity[i];
-  const PowerTransfer transfer(system, power);
-  const auto sequence = core::make_sequence("independent", 3);
-  constexpr double known[6] = {.22878637, .88904506, 1.36942892, 1.94447173, 2.25557166, 2.40842172};
-  core::ScalarMoments scores[6];
+/// What single rays say of one bounce of a power, per face.
+std::array<core::ScalarMoments, 6> scores_of(const PowerTransfer& transfer, std::uint64_t seed) {
+  const auto sequence = core::make_sequence("independent", seed);
+  std::array<core::ScalarMoments, 6> scores;
   ColumnMatrix reflected(6, 1);
   for (std::uint64_t k = 0; k < 400000; ++k) {
     reflected.setZero();
     transfer.add(*sequence, k, 1, 1, reflected);
-    for (Index i = 0; i < 6; ++i) scores[i].add(reflected(i, 0));
+    for (Index i = 0; i < 6; ++i) scores[std::size_t(i)].add(reflected(i, 0));
   }
+  return scores;
+}
+/// Of the cube's solution, whose faces have areas of 1.
+ColumnMatrix power_of_cube() { return Eigen::Map<const Eigen::VectorXd>(radiosity, 6); }
+
+TEST(PowerTransfer, has_the_mean_and_the_variance_that_are_known) {
+  const SixFaces cube;
+  const System system = cube.system();
+  const ColumnMatrix power = power_of_cube();
+  const auto scores = scores_of(PowerTransfer(system, power), 3);
+  constexpr double known[6] = {.22878637, .88904506, 1.36942892, 1.94447173, 2.25557166, 2.40842172};
   for (Index i = 0; i < 6; ++i) {
-    EXPECT_NEAR(scores[i].mean(), radiosity[i] - cube.e(i, 0), 4.5 * scores[i].standard_error()) << i;
-    EXPECT_NEAR(scores[i].variance() / known[i], 1, .03) << i;
+    const core::ScalarMoments& score = scores[std::size_t(i)];
+    EXPECT_NEAR(score.mean(), radiosity[i] - cube.e(i, 0), 4.5 * score.standard_error()) << i;
+    EXPECT_NEAR(score.variance() / known[i], 1, .03) << i;
   }
 }
 
@@ -37,25 +46,17 @@ TEST(PowerTransfer, has_the_mean_and_the_variance_that_are_known) {
 TEST(PowerTransfer, carries_light_both_ways) {
   const SixFaces cube;
   const System system = cube.system();
-  ColumnMatrix power(6, 1);
-  for (Index i = 0; i < 6; ++i) power(i, 0) = radiosity[i];
-  const PowerTransfer transfer(system, power, PowerTransfer::Lines::both_ways);
-  const auto sequence = core::make_sequence("independent", 4);
-  core::ScalarMoments scores[6];
-  ColumnMatrix reflected(6, 1);
-  for (std::uint64_t k = 0; k < 400000; ++k) {
-    reflected.setZero();
-    transfer.add(*sequence, k, 1, 1, reflected);
-    for (Index i = 0; i < 6; ++i) scores[i].add(reflected(i, 0));
-  }
+  const ColumnMatrix power = power_of_cube();
+  const auto scores = scores_of(PowerTransfer(system, power, PowerTransfer::Lines::both_ways), 4);
   for (Index i = 0; i < 6; ++i) {
+    const core::ScalarMoments& score = scores[std::size_t(i)];
     const double rho = cube.rho(i, 0), b = radiosity[i] - cube.e(i, 0);
     double sum = 0;
     for (Index j = 0; j < 6; ++j)
       sum += cube.K.matrix()(i, j) * power(j, 0) * power(j, 0) / (power(i, 0) + power(j, 0));
     const double known = rho * rho * power.sum() * sum - b * b;
-    EXPECT_NEAR(scores[i].mean(), b, 4.5 * scores[i].standard_error()) << i;
-    EXPECT_NEAR(scores[i].variance() / known, 1, .03) << i;
+    EXPECT_NEAR(score.mean(), b, 4.5 * score.standard_error()) << i;
+    EXPECT_NEAR(score.variance() / known, 1, .03) << i;
     EXPECT_LT(known, rho * power.sum() * b - b * b) << "one way";
   }
 }
