@@ -47,7 +47,7 @@ struct PolynomialOperator {
     std::vector<double> gram;
     for (const scene::SurfacePatch& patch : patches)
       gram.insert(gram.end(), static_cast<std::size_t>(functions), patch.area);
-    blocks = std::make_unique<DenseSymmetric>(std::move(gram));
+    blocks = std::make_unique<DenseSymmetric>(std::move(gram), functions);
   }
   BlockSink sink() { return {*K, *blocks, functions}; }
 

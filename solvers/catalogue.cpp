@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "core/error.h"
 #include "solvers/automatic.h"
+#include "solvers/combined_walks.h"
 #include "solvers/conjugate_gradients.h"
 #include "solvers/gauss_seidel.h"
 #include "solvers/gmres.h"
@@ -8,6 +11,8 @@
 #include "solvers/random_walk.h"
 #include "solvers/southwell.h"
 #include "solvers/stochastic_jacobi.h"
+#include "solvers/stochastic_ray.h"
+#include "solvers/target_walk.h"
 
 namespace interflect::solvers {
 namespace {
@@ -50,6 +55,18 @@ std::unique_ptr<RadiositySolver> stochastic_jacobi(const SolverSettings& setting
   return std::make_unique<StochasticJacobi>(kind, settings);
 }
 
+std::unique_ptr<RadiositySolver> stochastic_ray(const SolverSettings& settings) {
+  return std::make_unique<StochasticRay>(settings);
+}
+std::unique_ptr<RadiositySolver> combined_walks(const SolverSettings& settings) {
+  return std::make_unique<CombinedWalks>(settings);
+}
+
+template <TargetWalk::Way way>
+std::unique_ptr<RadiositySolver> target_walk(const SolverSettings& settings) {
+  return std::make_unique<TargetWalk>(way, settings);
+}
+
 }  // namespace
 
 const std::vector<SolverEntry>& known_solvers() {
@@ -73,6 +90,12 @@ const std::vector<SolverEntry>& known_solvers() {
        stochastic_jacobi<StochasticJacobi::Kind::regular>},
       {"bidirectional-stochastic-jacobi", "the same, rays carrying light both ways", Needs::walks,
        stochastic_jacobi<StochasticJacobi::Kind::bidirectional>},
+      {"control-variate-stochastic-jacobi", "rays bring what differs from a constant: closed rooms", Needs::closed_room,
+       stochastic_jacobi<StochasticJacobi::Kind::control_variate>},
+      {"global-line-stochastic-jacobi", "bounces by lines through everything", Needs::lines,
+       stochastic_jacobi<StochasticJacobi::Kind::global_lines>},
+      {"stochastic-ray", "a few rays at a time of all that there is, and a part of the way to what they say",
+       Needs::walks, stochastic_ray},
       {"shooting-collision", "random walks from what shines, scored at every hit", Needs::walks,
        walks<Way::shooting, Score::collision>},
       {"shooting-survival", "the same, scored where they go on", Needs::walks, walks<Way::shooting, Score::survival>},
@@ -82,21 +105,39 @@ const std::vector<SolverEntry>& known_solvers() {
       {"gathering-survival", "the same, scored where they go on", Needs::walks, walks<Way::gathering, Score::survival>},
       {"gathering-absorption", "the same, scored where they end", Needs::walks,
        walks<Way::gathering, Score::absorption>},
+      {"continuous-shooting", "random walks from point to point: light itself, not the equations'", Needs::points,
+       walks<Way::continuous, Score::collision>},
+      {"shooting-and-gathering", "both, as their exact variances advise", Needs::walks, combined_walks},
+      {"importance-driven-stochastic-jacobi", "rays from where the target has its light from", Needs::target,
+       stochastic_jacobi<StochasticJacobi::Kind::importance_driven>},
+      {"optimal-sources", "random walks born where the target has its light from", Needs::target,
+       target_walk<TargetWalk::Way::optimal_sources>},
+      {"potential-driven", "the same, and they go on where that is worth it", Needs::target,
+       target_walk<TargetWalk::Way::potential_driven>},
+      {"adjoint", "random walks from the target, which gather", Needs::target, target_walk<TargetWalk::Way::adjoint>},
   };
   return all;
 }
 
-std::vector<std::string> solver_names() {
+template <class Which>
+static std::vector<std::string> names_of(const Which& which) {
   std::vector<std::string> names;
-  for (const SolverEntry& each : known_solvers()) names.push_back(each.name);
+  for (const SolverEntry& each : known_solvers())
+    if (which(each)) names.push_back(each.name);
   return names;
 }
 
+std::vector<std::string> solver_names() {
+  return names_of([](const SolverEntry&) { return true; });
+}
+
 std::vector<std::string> solver_names(bool samples) {
-  std::vector<std::string> names;
-  for (const SolverEntry& each : known_solvers())
-    if (each.samples() == samples) names.push_back(each.name);
-  return names;
+  return names_of([&](const SolverEntry& each) { return each.samples() == samples; });
+}
+
+std::vector<std::string> solver_names(std::initializer_list<SolverEntry::Needs> needs) {
+  return names_of(
+      [&](const SolverEntry& each) { return std::find(needs.begin(), needs.end(), each.needs) != needs.end(); });
 }
 
 const SolverEntry& solver_named(const std::string& name) {

@@ -35,6 +35,12 @@ bool Iterations::next(const Outcome& outcome) {
 
 bool Iterations::interrupted() const { return run_.stop.stop_requested() || out_of_time(); }
 
+SolverReport Iterations::given_up() {
+  using Stopped = SolverReport::Stopped;
+  report_.why = run_.stop.stop_requested() ? Stopped::asked_to : Stopped::time_limit;
+  return report();
+}
+
 bool Iterations::take_down(const Outcome& outcome) {
   ++state_.step;
   report_.history.push_back({outcome.residual, report_.rows() + outcome.rows, core::seconds_since(start_)});

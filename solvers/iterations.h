@@ -32,6 +32,8 @@ class Iterations {
   bool interrupted() const;
 
   SolverReport report() { return std::move(report_); }
+  /// The report of a solve whose last iteration was given up halfway, as if it had not begun.
+  SolverReport given_up();
 
  private:
   bool out_of_time() const { return core::seconds_since(start_) >= rule_.max_seconds; }

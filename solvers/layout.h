@@ -15,6 +15,7 @@ struct Layout {
   static Layout uniform(Index elements, Index functions_each);
   Index elements() const { return static_cast<Index>(first_of_element.size()) - 1; }
   Index unknowns() const { return first_of_element.back(); }
+  bool constants() const { return unknowns() == elements(); }  ///< one function an element
   Index element_of(Index unknown) const;
 };
 

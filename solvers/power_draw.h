@@ -26,11 +26,16 @@ class PowerDraw {
     return (cumulative_[a] - (a == 0 ? 0 : cumulative_[a - 1])) / cumulative_.back();
   }
   bool nothing() const { return !(cumulative_.back() > 0); }
+  const Eigen::RowVectorXd& sizes() const { return sizes_; }  ///< sum |power| of each column
 
  private:
+  Eigen::RowVectorXd sizes_;
   std::vector<double> cumulative_;
   std::vector<std::uint32_t> guide_;  ///< where to begin looking, by u in as many equal parts as there are unknowns
 };
+
+/// Half in proportion to power and half to area, of each column: so that what sends little, or nothing yet, is drawn as well.
+ColumnMatrix half_by_area(const ColumnMatrix& power, std::span<const double> areas);
 
 /// Radiosity times area: what unknowns send.
 ColumnMatrix power_of(std::span<const double> areas, ConstColumns radiosity);

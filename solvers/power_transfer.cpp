@@ -4,9 +4,6 @@
 
 namespace interflect::solvers {
 
-PowerTransfer::PowerTransfer(const System& system, const ColumnMatrix& power, Lines lines)
-    : system_(system), power_(power), lines_(lines), draw_(power) {}
-
 void PowerTransfer::add(const core::SampleSequence& sequence, std::uint64_t first, std::uint64_t count, double weight,
                         ColumnMatrix& reflected) const {
   if (draw_.nothing()) return;

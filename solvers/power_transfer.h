@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/sample_sequence.h"
 #include "solvers/power_draw.h"
+#include "solvers/sampled_bounce.h"
 #include "solvers/solver.h"
 #include "solvers/transition_sampler.h"
 
@@ -22,14 +22,20 @@ namespace interflect::solvers {
 ///
 /// with the same means where K is symmetric, and of one column, where q = B / P, the variance
 /// V = (rho_i² P / G_i² sum_j K_ij B_j² / (B_i + B_j) - b_i²) / N: half of the other where all send alike.
-class PowerTransfer {
+class PowerTransfer final : public SampledBounce {
  public:
   enum class Lines { one_way, both_ways };
-  PowerTransfer(const System& system, const ColumnMatrix& power, Lines lines = Lines::one_way);
+  /// System and power outlive this.
+  PowerTransfer(const System& system, const ColumnMatrix& power, Lines lines = Lines::one_way)
+      : PowerTransfer(system, power, lines, power) {}
+  /// Drawn in proportion to something else, as PowerDraw does: one way it must not be 0 where power is not.
+  PowerTransfer(const System& system, const ColumnMatrix& power, Lines lines, const ColumnMatrix& drawn)
+      : system_(system), power_(power), lines_(lines), draw_(drawn) {}
 
-  /// By rays first .. first + count of a sequence; brings are added, times `weight`.
   void add(const core::SampleSequence& sequence, std::uint64_t first, std::uint64_t count, double weight,
-           ColumnMatrix& reflected) const;
+           ColumnMatrix& reflected) const override;
+  Eigen::RowVectorXd sizes() const override { return power_.cwiseAbs().colwise().sum(); }
+  Eigen::RowVectorXd worths() const override { return draw_.sizes(); }
 
  private:
   const System& system_;

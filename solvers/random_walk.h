@@ -1,7 +1,6 @@
 #pragma once
 
-#include "solvers/solver.h"
-#include "solvers/transition_sampler.h"
+#include "solvers/element_walks.h"
 
 namespace interflect::solvers {
 
@@ -23,17 +22,19 @@ namespace interflect::solvers {
 ///   survival     e_s / rho_s where they go on        V = rho_i sum_s (e_s + 2 b_s) / rho_s b_is - b_i²
 ///   absorption   e_s / (1 - rho_s) where they end    V = rho_i sum_s e_s / (1 - rho_s) b_is - b_i²
 ///
-/// b_is being the part of b_i that comes from s.  With several columns walks are shared: they go on with the probability
-/// sum T rho / sum T of what they carry, T a column, which is changed so that each has the right mean; of one column
-/// that is rho.
+/// b_is being the part of b_i that comes from s.
+///
+/// **Continuous** walks shoot, score collisions, and go on from the very point where they arrived: their mean is not the
+/// solution of the equations but that of light itself, averaged over elements, since what arrives is not spread over the
+/// element before it leaves.
 ///
 /// Errors are by independent replications (replications.h).  Sources that reflect nothing are not found by gathering with
 /// survival, nor what reflects everything by absorption: these are refused.
 /// Test: tests/solvers/random_walk.cpp
 class RandomWalk final : public RadiositySolver {
  public:
-  enum class Way { shooting, gathering };
-  enum class Score { absorption, survival, collision };
+  enum class Way { shooting, gathering, continuous };
+  using Score = ElementWalks::Score;
   RandomWalk(Way way, Score score, const SolverSettings& settings) : way_(way), score_(score), settings_(settings) {}
   std::string name() const override;
   SolverReport advance(const System& system, SolverState& state, const StoppingRule& rule, Run& run) const override;

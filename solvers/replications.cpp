@@ -29,6 +29,14 @@ ColumnMatrix Replications::standard_error(double samples) const {
   return (squares / (count() * (count() - 1.0))).cwiseSqrt();
 }
 
+std::pair<Eigen::RowVectorXd, Eigen::RowVectorXd> Replications::weighed(std::span<const double> w,
+                                                                        double samples) const {
+  const Eigen::Map<const Eigen::RowVectorXd> weights(w.data(), sums_[0].rows());
+  Replications of_one(1, sums_[0].cols(), count());
+  for (std::size_t r = 0; r < sums_.size(); ++r) of_one.sums_[r] = weights * sums_[r];
+  return {of_one.mean(samples), of_one.standard_error(samples)};
+}
+
 /// P(|T| <= t) by n degrees of freedom is a finite sum in the angle a = atan(t / sqrt(n)) [Abramowitz, Stegun 1964,
 /// 26.7.3-4].
 static double probability_within(double t, int n) {

@@ -20,6 +20,8 @@ class Replications {
   /// @param samples  that each repetition has
   ColumnMatrix mean(double samples) const;
   ColumnMatrix standard_error(double samples) const;
+  /// Of w^T times what is estimated, whatever the correlations of unknowns are: mean and standard error of each column.
+  std::pair<Eigen::RowVectorXd, Eigen::RowVectorXd> weighed(std::span<const double> w, double samples) const;
 
  private:
   std::vector<ColumnMatrix> sums_;

@@ -3,22 +3,48 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "core/error.h"
-#include "solvers/iterations.h"
 #include "solvers/replications.h"
 
 namespace interflect::solvers {
 namespace {
 
-/// sqrt(sum G error²) / sqrt(sum G x²), the largest of the columns that are lit.
-double relative_noise(const System& system, const ColumnMatrix& error, const ColumnMatrix& x) {
-  const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), x.rows());
-  const Eigen::RowVectorXd squares = G * error.cwiseAbs2(), sizes = G * x.cwiseAbs2();
+/// sqrt(sum G error²) / sqrt(sum G b²) of what is reflected, the largest of the columns that have any.
+double relative_noise(const System& system, const ColumnMatrix& error, const ColumnMatrix& reflected) {
+  const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), error.rows());
+  const Eigen::RowVectorXd squares = G * error.cwiseAbs2(), sizes = G * reflected.cwiseAbs2();
   double largest = 0;
   for (Index c = 0; c < sizes.size(); ++c)
     if (sizes(c) > 0) largest = std::max(largest, std::sqrt(squares(c) / sizes(c)));
   return largest;
+}
+
+/// The same of what is asked for, which is set; 1 where it was not found at all by few samples.
+double target_noise(const System& system, SolverState& state, const Replications& replications, std::uint64_t done) {
+  constexpr std::uint64_t many = 1 << 16;
+  const Eigen::Map<const Eigen::RowVectorXd> t(system.target.data(), system.e.rows());
+  std::tie(state.target, state.target_error) = replications.weighed(system.target, static_cast<double>(done));
+  state.target += t * system.e;
+  double largest = 0;
+  for (Index c = 0; c < state.target.size(); ++c) {
+    const bool dark = (system.e.col(c).array() == 0).all() || (t.array() == 0).all();
+    if (state.target_error(c) > 0)
+      largest = std::max(largest, state.target_error(c) / std::abs(state.target(c)));
+    else if (!dark && done < many)
+      largest = 1;
+  }
+  return largest;
+}
+
+void nothing_yet(const System& system, SolverState& state) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  state.x = system.e;
+  state.standard_error = ColumnMatrix::Constant(system.e.rows(), system.e.cols(), unknown);
+  state.power_error = state.target_error = Eigen::RowVectorXd::Constant(system.e.cols(), unknown);
+  state.target = Eigen::RowVectorXd::Zero(system.e.cols());
 }
 
 }  // namespace
@@ -31,15 +57,29 @@ SolverReport sample_in_rounds(const System& system, SolverState& state, const St
   const std::uint64_t of_one = rounds.starts_a_sample * static_cast<std::uint64_t>(replications.count());
   const std::uint64_t most = rule.samples > 0 ? std::max<std::uint64_t>(1, rule.samples / of_one) : 0;
   Iterations iterations(state, rule, run);
+  const RoundStop stop(iterations);
   std::uint64_t done = 0, next = rounds.first;
   for (bool more = true; more; next = 2 * done) {
     if (most > 0) next = std::min(next, most);
-    std::atomic<std::uint64_t> draws = 0;
-    replications.add(run, [&](int r, ColumnMatrix& sum) { draws += rounds.add(r, done, next, sum); });
+    std::atomic<std::uint64_t> draws = rounds.prepare ? rounds.prepare(done, next) : 0;
+    core::Progress::Stage stage(run.progress, "samples", static_cast<std::uint64_t>(replications.count()));
+    try {
+      replications.add(run, [&](int r, ColumnMatrix& sum) {
+        draws += rounds.add(r, done, next, sum, stop);
+        stage.advance();
+      });
+    } catch (const RoundStop::Asked&) {
+      if (done == 0) nothing_yet(system, state);
+      return iterations.given_up();
+    }
     done = next;
     ColumnMatrix x = system.e + replications.mean(static_cast<double>(done));
     state.standard_error = replications.standard_error(static_cast<double>(done));
-    const double noise = relative_noise(system, state.standard_error, x);
+    state.power_error = replications.weighed(system.K.gram(), static_cast<double>(done)).second;
+    for (const Index i : rounds.unanswered)
+      state.standard_error.row(i).setConstant(std::numeric_limits<double>::infinity());
+    const double noise = system.target.empty() ? relative_noise(system, state.standard_error, x - system.e)
+                                               : target_noise(system, state, replications, done);
     more = iterations.next(x, {noise, static_cast<double>(draws), most > 0 ? done == most : noise <= rule.noise});
   }
   return iterations.report();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <string>
@@ -20,12 +21,15 @@ struct System {
   ConstColumns e;  ///< exitance coefficients
   const TransitionSampler* walks =
       nullptr;  ///< of the same K: what solvers go by that sample, and have nothing else of it
+  /// t, of unknowns, where one number J = sum_a t_a b_a of each column is asked for; empty: all are.
+  std::span<const double> target{};
 };
 
 struct StoppingRule {
   double tolerance = 1e-10;  ///< on max_a |e + R G^-1 K b - b| / max_a |b|, per column
   int max_iterations = 10000;
-  double noise = 0.01;        ///< relative standard error, L2, at which those stop that sample
+  /// Relative standard error at which those stop that sample: of what is reflected, L2, or of what is asked for.
+  double noise = 0.01;
   std::uint64_t samples = 0;  ///< that those take in all, whatever their noise; 0: as many as `noise` asks for
   double unshot = 0;          ///< sum G |r| / sum G |e| at which those stop that shoot
   double max_seconds = std::numeric_limits<double>::infinity();
@@ -56,8 +60,11 @@ std::string describe(SolverReport::Stopped why);
 struct SolverState {
   ColumnMatrix x;  ///< radiosity coefficients
   int step = 0;
-  ColumnMatrix residual{};        ///< e + R G^-1 K x - x, of solvers that keep it: what is not shot yet
-  ColumnMatrix standard_error{};  ///< of x, of solvers that sample
+  ColumnMatrix residual{};           ///< e + R G^-1 K x - x, of solvers that keep it: what is not shot yet
+  ColumnMatrix standard_error{};     ///< of x, of solvers that sample
+  Eigen::RowVectorXd power_error{};  ///< the same of sum_a G_a x_a, whatever the correlations of unknowns are
+  /// J of every column where a target is asked for, and its standard error: of solvers that sample.
+  Eigen::RowVectorXd target{}, target_error{};
   std::function<void(const SolverState&, const SolverReport&)> observer{};  ///< told after every iteration, if any
 };
 
@@ -81,10 +88,12 @@ class RadiositySolver {
 /// One that is known by name.
 struct SolverEntry {
   std::string name, summary;
-  /// What it needs beside products with K: nothing; K symmetric; System::walks, and its answers have standard errors.
-  enum class Needs { products, symmetry, walks };
+  /// What it needs beside products with K: nothing; K symmetric; System::walks; those with lines through everything; with
+  /// points; in a closed room; those and a System::target.
+  enum class Needs { products, symmetry, walks, lines, points, closed_room, target };
   Needs needs;
-  bool samples() const { return needs == Needs::walks; }
+  /// Its answers have standard errors.
+  bool samples() const { return needs != Needs::products && needs != Needs::symmetry; }
   std::unique_ptr<RadiositySolver> (*make)(const SolverSettings&);
 };
 const std::vector<SolverEntry>& known_solvers();
@@ -92,6 +101,7 @@ const std::vector<SolverEntry>& known_solvers();
 const SolverEntry& solver_named(const std::string& name);
 std::vector<std::string> solver_names();
 std::vector<std::string> solver_names(bool samples);  ///< of those that do, or of those that do not
+std::vector<std::string> solver_names(std::initializer_list<SolverEntry::Needs> needs);
 /// @throws core::InputError  as solver_named; where a setting is out of its range
 std::unique_ptr<RadiositySolver> make_solver(const std::string& name, const SolverSettings& settings = {});
 

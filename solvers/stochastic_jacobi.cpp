@@ -1,61 +1,17 @@
 #include "solvers/stochastic_jacobi.h"
 
-#include <cmath>
 #include <vector>
 
 #include "core/error.h"
 #include "core/random.h"
-#include "solvers/power_transfer.h"
+#include "solvers/constant_control_variate.h"
+#include "solvers/line_transfer.h"
+#include "solvers/potential.h"
+#include "solvers/ray_transfer.h"
 #include "solvers/sampled_rounds.h"
 #include "solvers/system_check.h"
 
 namespace interflect::solvers {
-namespace {
-
-/// What one replication does.
-class Bounces {
- public:
-  Bounces(const System& system, const core::SampleSequence& sequence, PowerTransfer::Lines lines)
-      : system_(system), sequence_(sequence), lines_(lines) {}
-
-  std::uint64_t draws() const { return draws_; }
-
-  /// G (b - e) by bounces of bounces: `rays` for what is emitted, and for all that follows as many as its power asks for.
-  ColumnMatrix incremental(std::uint64_t rays) {
-    constexpr double left = 1e-7;
-    const ColumnMatrix emitted = power_of(system_.K.gram(), system_.e);
-    ColumnMatrix sum = ColumnMatrix::Zero(emitted.rows(), emitted.cols()), last = emitted;
-    for (double share = 1; share > left; share = largest_share(last, emitted)) {
-      last = bounced(last, static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(rays))));
-      sum += last;
-    }
-    return sum;
-  }
-  /// What one bounce of a power reflects.  By a randomisation of its own: points of one sequence know of each other, and
-  /// what is sent here was found by earlier ones, so that their means would be off.
-  ColumnMatrix bounced(const ColumnMatrix& power, std::uint64_t rays) {
-    ColumnMatrix reflected = ColumnMatrix::Zero(power.rows(), power.cols());
-    PowerTransfer(system_, power, lines_).add(*sequence_.replicate(bounces_++), 0, rays, 1, reflected);
-    draws_ += rays;
-    return reflected;
-  }
-
- private:
-  static double largest_share(const ColumnMatrix& power, const ColumnMatrix& of) {
-    double largest = 0;
-    for (Index c = 0; c < power.cols(); ++c)
-      if (const double all = of.col(c).cwiseAbs().sum(); all > 0)
-        largest = std::max(largest, power.col(c).cwiseAbs().sum() / all);
-    return largest;
-  }
-
-  const System& system_;
-  const core::SampleSequence& sequence_;
-  PowerTransfer::Lines lines_;
-  std::uint64_t bounces_ = 0, draws_ = 0;
-};
-
-}  // namespace
 
 std::string StochasticJacobi::name() const {
   switch (kind_) {
@@ -63,37 +19,87 @@ std::string StochasticJacobi::name() const {
       return "regular-stochastic-jacobi";
     case Kind::bidirectional:
       return "bidirectional-stochastic-jacobi";
+    case Kind::control_variate:
+      return "control-variate-stochastic-jacobi";
+    case Kind::global_lines:
+      return "global-line-stochastic-jacobi";
+    case Kind::importance_driven:
+      return "importance-driven-stochastic-jacobi";
     case Kind::incremental:
       break;
   }
   return "stochastic-jacobi";
 }
 
+BounceFactory StochasticJacobi::bounces_of(const System& system, const ColumnMatrix& worth, const Run& run) const {
+  switch (kind_) {
+    case Kind::bidirectional:
+      require_constants(system, name());
+      if (!system.K.symmetric())
+        throw core::InputError("solver '" + name() + "'",
+                               "a symmetric operator expected; use 'stochastic-jacobi' here");
+      return [&system](const ColumnMatrix& power) {
+        return std::make_unique<PowerTransfer>(system, power, PowerTransfer::Lines::both_ways);
+      };
+    case Kind::control_variate:
+      require_constants(system, name());
+      require_closed(system, name(), run);
+      return [&system](const ColumnMatrix& power) {
+        return std::make_unique<ConstantControlVariate>(system, power, ray_transfer(system));
+      };
+    case Kind::global_lines:
+      require_constants(system, name());
+      require_lines(system, name());
+      return [&system](const ColumnMatrix& power) { return std::make_unique<LineTransfer>(system, power); };
+    case Kind::importance_driven:
+      require_constants(system, name());
+      require_target(system, name());
+      return [&system, &worth](const ColumnMatrix& power) {
+        return std::make_unique<PowerTransfer>(system, power, PowerTransfer::Lines::one_way,
+                                               power.cwiseProduct(defensive(worth, power)));
+      };
+    case Kind::incremental:
+    case Kind::regular:
+      break;
+  }
+  return ray_transfer(system);
+}
+
 SolverReport StochasticJacobi::advance(const System& system, SolverState& state, const StoppingRule& rule,
                                        Run& run) const {
   require_walks(system, name());
   require_solvable(system);
-  const bool both_ways = kind_ == Kind::bidirectional, anew_each_time = kind_ == Kind::incremental;
-  if (both_ways && !system.K.symmetric())
-    throw core::InputError("solver '" + name() + "'", "a symmetric operator expected; use 'stochastic-jacobi' here");
   if (!prepare(system, state)) return {.why = SolverReport::Stopped::nothing_to_do};
+  ColumnMatrix worth;
+  const BounceFactory of = bounces_of(system, worth, run);
 
   const auto sequences = sequences_for(settings_, core::derived_seed(run.seed, "stochastic jacobi"));
   std::vector<Bounces> bounces;
-  const auto lines = both_ways ? PowerTransfer::Lines::both_ways : PowerTransfer::Lines::one_way;
-  for (const auto& sequence : sequences) bounces.emplace_back(system, *sequence, lines);
+  for (const auto& sequence : sequences) bounces.emplace_back(of, *sequence);
   std::vector<ColumnMatrix> last(bounces.size());  // G (b - e) of the last iteration
   const Eigen::Map<const Eigen::VectorXd> G(system.K.gram().data(), system.e.rows());
   const ColumnMatrix emitted = power_of(system.K.gram(), system.e);
-  const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum) {
+  const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
     const auto k = static_cast<std::size_t>(r);
-    const std::uint64_t before = bounces[k].draws(), rays = end - begin;
-    const bool anew = anew_each_time || begin == 0;
-    last[k] = anew ? bounces[k].incremental(rays) : bounces[k].bounced(emitted + last[k], rays);
-    sum += static_cast<double>(rays) * G.cwiseInverse().asDiagonal() * last[k];
+    const std::uint64_t before = bounces[k].draws(), samples = end - begin;
+    const bool anew = kind_ == Kind::incremental || kind_ == Kind::importance_driven || begin == 0;
+    stop.here();
+    last[k] = anew ? bounces[k].incremental(emitted, samples, [&] { stop.here(); })
+                   : bounces[k].bounced(emitted + last[k], samples);
+    sum += static_cast<double>(samples) * G.cwiseInverse().asDiagonal() * last[k];
     return bounces[k].draws() - before;
   };
-  return sample_in_rounds(system, state, rule, settings_, {256, 1, add}, run);
+  SampledRounds rounds{256, 1, add};
+  if (kind_ == Kind::importance_driven)
+    rounds.prepare = [&](std::uint64_t begin, std::uint64_t end) {
+      Potential potential(system, settings_, run,
+                          potential_rays(system, (end - begin) * static_cast<std::uint64_t>(bounces.size())));
+      worth = potential.of_a_bounce();
+      return potential.draws();
+    };
+  else
+    rounds.first = std::max(rounds.first, of(emitted)->least_samples());
+  return sample_in_rounds(system, state, rule, settings_, rounds, run);
 }
 
 }  // namespace interflect::solvers

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "solvers/transition_sampler.h"
 
 namespace interflect::solvers {
 namespace {
@@ -93,9 +94,35 @@ const RowAccess& required_columns(const System& system, const std::string& solve
 }
 
 void require_walks(const System& system, const std::string& solver) {
-  if (system.walks == nullptr)
-    throw core::InputError("solver '" + solver + "'", "rays between elements of constants expected");
+  const auto refuse = [&](const char* what) { throw core::InputError("solver '" + solver + "'", what); };
+  if (system.walks == nullptr) refuse("rays between elements expected");
   require_diagonal(system, solver);
+  const Layout& layout = system.K.layout();
+  if (layout.constants()) return;
+  const PointTransitions* points = system.walks->points();
+  if (points == nullptr || layout.elements() * points->functions() != layout.unknowns())
+    refuse("rays with the functions of the operator expected");
+}
+
+void require_constants(const System& system, const std::string& solver) {
+  if (!system.K.layout().constants())
+    throw core::InputError("solver '" + solver + "'", "constants on elements expected; use 'stochastic-jacobi' here");
+}
+
+void require_lines(const System& system, const std::string& solver) {
+  if (system.walks->lines() == nullptr)
+    throw core::InputError("solver '" + solver + "'", "lines through everything expected");
+}
+
+void require_points(const System& system, const std::string& solver) {
+  if (system.walks->points() == nullptr)
+    throw core::InputError("solver '" + solver + "'", "rays between points expected");
+}
+
+void require_target(const System& system, const std::string& solver) {
+  if (system.target.empty()) throw core::InputError("solver '" + solver + "'", "a target expected: what is asked for");
+  if (static_cast<Index>(system.target.size()) != system.e.rows())
+    throw core::PreconditionError("solve: the target has another shape than the exitance");
 }
 
 bool prepare(const System& system, SolverState& state) {

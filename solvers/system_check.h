@@ -17,8 +17,16 @@ const RowAccess& required_rows(const System& system, const std::string& solver);
 /// The same of its columns, for solvers that shoot.
 const RowAccess& required_columns(const System& system, const std::string& solver);
 
-/// @throws core::InputError  where the system has no walks of constants, or reflectance varies inside elements
+/// @throws core::InputError  where the system has no walks, or none with its functions, or reflectance varies inside elements
 void require_walks(const System& system, const std::string& solver);
+/// @throws core::InputError  where elements have more than one function
+void require_constants(const System& system, const std::string& solver);
+/// @throws core::InputError  where walks have no lines through everything
+void require_lines(const System& system, const std::string& solver);
+/// @throws core::InputError  where walks have no points
+void require_points(const System& system, const std::string& solver);
+/// @throws core::InputError  where nothing is asked for
+void require_target(const System& system, const std::string& solver);
 
 /// Makes `state` a start: x = e where it is empty, and 0 in columns without exitance, whose solution that is.
 /// @return false where every column is such a one: there is nothing to do

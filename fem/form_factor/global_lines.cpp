@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/hemisphere.h"
 #include "core/random.h"
 #include "core/seconds_since.h"
 #include "fem/form_factor/counted_exchange.h"
@@ -15,8 +14,6 @@ namespace {
 
 constexpr Index lines_a_block = 4096, rows_a_block = 4;
 constexpr double most_lines_an_element = 1 << 14;
-
-scene::Side other(scene::Side side) { return side == scene::Side::front ? scene::Side::back : scene::Side::front; }
 
 class Discard final : public ExchangeSink {
  public:
@@ -30,7 +27,9 @@ class GlobalLines::Counts {
  public:
   explicit Counts(Index elements)
       : elements_(elements), count_(static_cast<std::size_t>(elements * (elements - 1) / 2)) {}
-  void add(const Pair& pair) { count_[at(pair.from, pair.to)].fetch_add(1, std::memory_order_relaxed); }
+  void add(const LinesThrough::Exchange& pair) {
+    count_[at(pair.from, pair.to)].fetch_add(1, std::memory_order_relaxed);
+  }
   std::uint32_t operator()(Index a, Index b) const { return count_[at(a, b)].load(std::memory_order_relaxed); }
 
  private:
@@ -48,60 +47,35 @@ GlobalLines::GlobalLines(const FormFactorContext& context)
       seed_(core::derived_seed(context.seed, "global-lines")),
       shapes_(context.patches),
       locate_(context.patches),
-      centre_(shapes_.origin()) {
+      through_(context.patches, context.rays, locate_) {
   double area = 0;
-  for (const scene::SurfacePatch& patch : context.patches) {
-    for (const Vec3& corner : patch.ring()) radius_ = std::max(radius_, (corner - centre_).norm());
-    area += patch.area;
-  }
+  for (const scene::SurfacePatch& patch : context.patches) area += patch.area;
   const double an_element = std::min(1 / (context.tolerance * context.tolerance), most_lines_an_element);
   const double mean_area = area / static_cast<double>(context.patches.size());
   lines_ = context.samples;
   if (lines_ == 0 && area > 0)
-    lines_ = static_cast<std::uint64_t>(std::ceil(an_element * 2 * pi * radius_ * radius_ / mean_area));
+    lines_ = static_cast<std::uint64_t>(std::ceil(an_element * .5 * through_.measure() / mean_area));
 }
 
 raycast::Ray GlobalLines::line(std::uint64_t k) const {
   core::RandomNumbers random(seed_, 0, k);
-  const double u = random.next(), v = random.next(), s = random.next(), t = random.next();
-  const double z = 1 - 2 * u, across = std::sqrt(std::max(0.0, 1 - z * z)), from_axis = radius_ * std::sqrt(s);
-  const Vec3 direction(across * std::cos(2 * pi * v), across * std::sin(2 * pi * v), z);
-  const core::Frame frame = core::frame_around(direction);
-  return {
-      centre_ + frame.to_world({from_axis * std::cos(2 * pi * t), from_axis * std::sin(2 * pi * t), -1.5 * radius_}),
-      direction};
-}
-
-void GlobalLines::pairs_along(const raycast::Ray& line, std::vector<scene::SurfacePoint>& hits,
-                              std::vector<Pair>& pairs) const {
-  pairs.clear();
-  context_.rays.all(line, hits);
-  for (std::size_t k = 1; k < hits.size(); ++k) {
-    const scene::SurfacePoint& to = hits[k];
-    // Surfaces that lie on each other do not exchange light through the nothing between them; nor do rays see each
-    // other there.
-    if ((to.position - hits[k - 1].position).norm() <= 2 * context_.rays.offset()) continue;
-    scene::SurfacePoint from = hits[k - 1];
-    from.side = other(from.side);
-    const Index i = locate_(from);
-    if (i == ElementLocator::none) continue;
-    const Index j = locate_(to);
-    if (j != ElementLocator::none && j != i) pairs.push_back({i, j});
-  }
+  double u[4];
+  for (double& each : u) each = random.next();
+  return through_.line(u);
 }
 
 void GlobalLines::shoot(std::uint64_t begin, std::uint64_t end, Counts& found) const {
   std::vector<scene::SurfacePoint> hits;
-  std::vector<Pair> pairs;
+  std::vector<LinesThrough::Exchange> pairs;
   for (std::uint64_t k = begin; k < end; ++k) {
-    pairs_along(line(k), hits, pairs);
-    for (const Pair& pair : pairs) found.add(pair);
+    through_.pairs_along(line(k), hits, pairs);
+    for (const LinesThrough::Exchange& pair : pairs) found.add(pair);
   }
 }
 
 PairCounts GlobalLines::add_row(Index a, const Counts& found, ExchangeSink& sink) const {
   PairCounts counts;
-  const double whole = 2 * pi * radius_ * radius_;
+  const double whole = .5 * through_.measure();
   for (Index b = a + 1; b < static_cast<Index>(context_.patches.size()); ++b) {
     if (facing_away(shapes_, a, b)) {
       ++counts.facing_away;

@@ -5,21 +5,15 @@
 
 #include "fem/form_factor/element_locator.h"
 #include "fem/form_factor/element_shapes.h"
+#include "fem/form_factor/lines_through.h"
 #include "fem/form_factor/method.h"
 
 namespace interflect::fem {
 
 /// Form factors of all pairs at once, by lines through everything [Sbert 1993, 1996].
 ///
-/// Lines are uniform in the measure of integral geometry: a direction uniform on the sphere, a point uniform on the
-/// disk of radius R across it, R and its centre those of a ball that holds all elements.  Such a line has density 1 /
-/// (4 pi) [1/sr] times 1 / (pi R²) [1/m²], so that
-///
-///   P(it crosses a planar element) = int |cos| dw A / (4 pi pi R²) = A / (2 pi R²);  S / (4 pi R²) for a convex body of surface S
-///   P(it leaves i and meets j next) = int_i int_j cos cos V / r² / (4 pi² R²) = K_ij / (4 pi R²),    the same for j and i
-///
-/// All that a line meets is taken in order; each two that follow each other, the first seen from behind and the second
-/// from in front, are an exchange used both ways.  With N_ij of them among N lines,
+/// Lines are uniform as integral geometry has them, and each exchange along one (lines_through.h) is used both ways.  With N_ij
+/// of them among N lines,
 ///
 ///   K_ij = 2 pi R² N_ij / N
 ///
@@ -41,17 +35,10 @@ class GlobalLines final : public FormFactorMethod {
                       const Run& run) const override;
   double trial(const Run& run) const override;
 
-  double radius() const { return radius_; }  ///< R [m]
+  const LinesThrough& through() const { return through_; }
   std::uint64_t lines() const { return lines_; }
-
-  /// Elements that leave and meet the line in turn, along one line.
-  struct Pair {
-    Index from, to;
-  };
-  /// Line k as a ray from outside, a function of (seed, k).
+  /// Line k, a function of (seed, k).
   raycast::Ray line(std::uint64_t k) const;
-  /// The exchanges along a line. @param hits  memory to reuse  @param pairs  overwritten
-  void pairs_along(const raycast::Ray& line, std::vector<scene::SurfacePoint>& hits, std::vector<Pair>& pairs) const;
 
  private:
   class Counts;
@@ -63,8 +50,7 @@ class GlobalLines final : public FormFactorMethod {
   std::uint64_t seed_;
   ElementShapes shapes_;
   ElementLocator locate_;
-  Vec3 centre_;
-  double radius_ = 0;
+  LinesThrough through_;
   std::uint64_t lines_ = 0;
 };
 

@@ -65,9 +65,9 @@ void copy_transposed(const double* K, Index count, double* to, Index stride) {
 
 void DenseSymmetric::Free::operator()(double* p) const { std::free(p); }
 
-DenseSymmetric::DenseSymmetric(std::vector<double> areas)
-    : layout_(solvers::Layout::uniform(static_cast<Index>(areas.size()), 1)),
-      areas_(std::move(areas)),
+DenseSymmetric::DenseSymmetric(std::vector<double> gram, Index functions)
+    : layout_(solvers::Layout::uniform(static_cast<Index>(gram.size()) / functions, functions)),
+      areas_(std::move(gram)),
       self_(areas_.size(), 0.0),
       tile_rows_((size() + tile_size - 1) / tile_size) {
   const Index tiles = tile_rows_ * (tile_rows_ + 1) / 2;

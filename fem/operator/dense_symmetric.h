@@ -19,8 +19,9 @@ namespace interflect::fem {
 /// bytes more.  Bounds on quadrature errors are not kept: they are at most the tolerance that the method was given.
 class DenseSymmetric final : public SymmetricOperator, public ExchangeSink {
  public:
-  /// All entries 0.  @param areas  of the elements [m²]   @throws core::InputError  where there is no memory for it
-  explicit DenseSymmetric(std::vector<double> areas);
+  /// All entries 0.  @param gram  of the unknowns: of constants the elements' areas [m²]  @param functions  of an element
+  /// @throws core::InputError  where there is no memory for it
+  explicit DenseSymmetric(std::vector<double> gram, Index functions = 1);
   ~DenseSymmetric() override;
 
   /// Sets K_ab = K_ba.  Threads may add at the same time as long as no pair is added twice.

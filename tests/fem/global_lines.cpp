@@ -24,10 +24,10 @@ Room cube(int n) {
 template <class Visit>
 void for_lines(const GlobalLines& method, const Visit& visit) {
   std::vector<scene::SurfacePoint> hits;
-  std::vector<GlobalLines::Pair> pairs;
+  std::vector<LinesThrough::Exchange> pairs;
   for (std::uint64_t k = 0; k < lines; ++k) {
     const raycast::Ray line = method.line(k);
-    method.pairs_along(line, hits, pairs);
+    method.through().pairs_along(line, hits, pairs);
     visit(line, hits, pairs);
   }
 }
@@ -36,12 +36,12 @@ void for_lines(const GlobalLines& method, const Visit& visit) {
 TEST(GlobalLines, meet_a_patch_with_probability_A_over_2_pi_R2_and_a_convex_body_with_S_over_4_pi_R2) {
   const Sampled sampled(cube(2));
   const GlobalLines method(sampled.context(lines));
-  EXPECT_NEAR(method.radius(), std::sqrt(0.75), 1e-12);
+  EXPECT_NEAR(method.through().radius(), std::sqrt(0.75), 1e-12);
   std::vector<double> met(24, 0);
   double body = 0;
   for_lines(method, [&](const raycast::Ray&, const auto& hits, const auto& pairs) {
     body += !hits.empty();
-    for (const GlobalLines::Pair& pair : pairs)
+    for (const LinesThrough::Exchange& pair : pairs)
       ++met[static_cast<std::size_t>(pair.from)], ++met[static_cast<std::size_t>(pair.to)];
   });
   const auto expect = [&](double count, double p) {
@@ -62,7 +62,8 @@ TEST(GlobalLines, join_pairs_in_proportion_to_their_exchange) {
   for_lines(method, [&](const raycast::Ray&, const auto&, const auto& pairs) {
     ASSERT_LE(pairs.size(), 1u);
     none += pairs.empty();
-    for (const GlobalLines::Pair& pair : pairs) ++found(std::max(pair.from, pair.to), std::min(pair.from, pair.to));
+    for (const LinesThrough::Exchange& pair : pairs)
+      ++found(std::max(pair.from, pair.to), std::min(pair.from, pair.to));
   });
   double chi_squared = 0, categories = 1, rest = lines;
   for (Index i = 0; i < 24; ++i)

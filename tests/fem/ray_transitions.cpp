@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "core/sample_sequence.h"
+#include "fem/element_materials.h"
 #include "fem/radiosity_operator.h"
+#include "fem/space/polynomials.h"
 #include "solvers/power_transfer.h"
 #include "solvers/replications.h"
 #include "tests/fem/rooms.h"
@@ -83,17 +85,107 @@ TEST(RayTransitions, lead_random_walks_to_the_solution) {
     rho(i, 0) = material.reflectance_of(scene::Side::front)[0];
   }
   const solvers::Reflection R(rho);
-  const solvers::System system{*K, R, e, &transitions};
+  const std::vector<double> all(static_cast<std::size_t>(K->size()), 1);
+  const solvers::System system{*K, R, e, &transitions}, asked{*K, R, e, &transitions, all};
   solvers::SolverState exact{e};
   solvers::make_solver("automatic")->advance(system, exact, {}, run);
-  for (const std::string& name : solvers::solver_names(true)) {
+  using Needs = solvers::SolverEntry::Needs;
+  for (const std::string& name : solvers::solver_names({Needs::walks, Needs::lines, Needs::target})) {
     solvers::SolverState state{e};
     solvers::StoppingRule rule;
     rule.noise = 1e-2;
-    solvers::make_solver(name)->advance(system, state, rule, run);
+    const bool asks = solvers::solver_named(name).needs == Needs::target;
+    solvers::make_solver(name)->advance(asks ? asked : system, state, rule, run);
     for (Index i = 0; i < K->size(); ++i)
       EXPECT_NEAR(state.x(i, 0), exact.x(i, 0), 5 * state.standard_error(i, 0) + 1e-3 * exact.x(i, 0)) << name << i;
   }
+}
+
+/// The room's equations for polynomials.
+struct PolynomialEquations {
+  PolynomialEquations(const Furnished& room, int order, core::LocalRun& run) : walks(room.patches, *room.rays, order) {
+    RadiositySettings settings;
+    settings.form_factors = "analytic";
+    settings.order = order;
+    settings.quadrature_tolerance = 1e-5;
+    from = assemble_operator(room.scene, room.patches, *room.rays, settings, run.get());
+    const auto [exitance, reflectance] = materials_of(room.scene, room.patches);
+    const std::vector<int> degree(room.patches.size(), order);
+    MaterialColumns columns = on_functions(exitance, reflectance, 1, degree, plane_functions(order));
+    e = std::move(columns.e);
+    R.emplace(std::move(columns.R));
+  }
+  solvers::System system() const { return {*from.blocks, *R, e, &walks}; }
+  RadiosityOperator from;
+  solvers::ColumnMatrix e;
+  std::optional<solvers::Reflection> R;
+  RayTransitions walks;
+};
+
+// Linear and quadratic functions by rays: coefficients of B_h within what they state, and the matrix's tolerance.
+TEST(RayTransitions, solve_for_polynomials) {
+  const Furnished room;
+  for (const int order : {1, 2})
+    for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi"}) {
+      core::LocalRun run(3, 2);
+      const PolynomialEquations equations(room, order, run);
+      const solvers::System system = equations.system();
+      solvers::SolverState exact{system.e}, state{system.e};
+      solvers::make_solver("automatic")->advance(system, exact, {}, run);
+      solvers::StoppingRule rule;
+      rule.noise = .02;
+      const auto report = solvers::make_solver(name)->advance(system, state, rule, run);
+      EXPECT_TRUE(report.converged());
+      const double most = exact.x.cwiseAbs().maxCoeff();
+      double squares = 0;
+      for (Index a = 0; a < system.e.rows(); ++a) {
+        const double off = std::abs(state.x(a, 0) - exact.x(a, 0)), stated = state.standard_error(a, 0);
+        EXPECT_LE(off, 5 * stated + 1e-4 * most) << name << order << ' ' << a;
+        squares += off * off / (stated * stated + 1e-8 * most * most) / static_cast<double>(system.e.rows());
+      }
+      EXPECT_GT(squares, .5) << "errors are no larger than they need be";
+      EXPECT_LT(squares, 1.5);
+    }
+}
+
+// What arrives is spread over an element before it leaves, in the equations and in discrete walks; a continuous walk goes on
+// from where it is.  Its means are those of light: of fine elements, averaged.  A room three times as long as wide, an
+// element a wall, and light at one end.
+TEST(RayTransitions, go_on_from_points_to_what_light_does) {
+  const auto solved = [](int n, const char* solver) {
+    Room room;
+    room.box({0, 0, 0}, {1, 1, 3}, n, true, .7);
+    const scene::Scene scene = room.finish();
+    const auto rays = raycast::make_ray_caster("embree", scene);
+    const RayTransitions walks(room.patches, *rays);
+    RadiositySettings settings;
+    settings.form_factors = "analytic";
+    core::LocalRun run(6, 2);
+    const auto K = assemble_operator(scene, room.patches, *rays, settings, run.get()).K;
+    solvers::ColumnMatrix e = solvers::ColumnMatrix::Zero(K->size(), 1);
+    const solvers::Reflection R(solvers::ColumnMatrix::Constant(K->size(), 1, .7));
+    for (Index i = 0; i < K->size(); ++i)
+      if (room.patches[std::size_t(i)].normal().z() > .5) e(i, 0) = 1;
+    solvers::SolverState state{e};
+    solvers::StoppingRule rule;
+    rule.noise = 1e-3;
+    solvers::make_solver(solver)->advance({*K, R, e, &walks}, state, rule, run);
+    // the mean of the far wall, and its error
+    double sum = 0, area = 0, squares = 0;
+    for (Index i = 0; i < K->size(); ++i) {
+      const auto& patch = room.patches[std::size_t(i)];
+      if (patch.normal().z() > -.5) continue;
+      sum += patch.area * state.x(i, 0), area += patch.area;
+      if (state.standard_error.size() > 0) squares += std::pow(patch.area * state.standard_error(i, 0), 2);
+    }
+    return std::pair(sum / area, std::sqrt(squares) / area);
+  };
+  const double coarse = solved(1, "automatic").first, fine = solved(12, "automatic").first;
+  const auto [continuous, error] = solved(1, "continuous-shooting");
+  const auto [discrete, of_discrete] = solved(1, "shooting-collision");
+  EXPECT_NEAR(discrete, coarse, 4.5 * of_discrete);
+  EXPECT_NEAR(continuous, fine, 4.5 * error + .01 * fine) << "the equations' own error at a twelfth is that much";
+  EXPECT_GT(coarse, 1.7 * fine);
 }
 
 /// Slope of log2 of the error of one bounce against log2 of the rays, 2^10 .. 2^18, and its standard error; errors are root

@@ -84,9 +84,11 @@ TEST(RandomWalks, state_their_errors) {
   const MatrixSampler walks(K);
   const ColumnMatrix rho = random_columns(n, 2, .1, .9, 72), e = random_columns(n, 2, 0, 1, 73);
   const Reflection R(rho);
-  const System system{K, R, e, &walks};
+  const std::vector<double> all(n, 1);
+  const System system{K, R, e, &walks, all};
   const ColumnMatrix exact = by_elimination(K, rho, e);
-  for (const std::string& name : solver_names(true)) {
+  using Needs = SolverEntry::Needs;
+  for (const std::string& name : solver_names({Needs::walks, Needs::lines, Needs::points, Needs::target})) {
     double held = 0, asked = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       core::LocalRun run(seed, 2);
@@ -112,23 +114,26 @@ TEST(RandomWalks, state_their_errors) {
 
 TEST(RandomWalks, go_on_until_their_noise_is_small) {
   const SixFaces cube;
-  for (const std::string& name : solver_names(true)) {
+  for (const SolverEntry& solver : known_solvers()) {
+    if (!solver.samples()) continue;
     core::LocalRun run(3, 2);
     SolverState state{cube.e};
     StoppingRule rule;
     rule.noise = 5e-3;
-    const SolverReport report = make_solver(name)->advance(cube.system(), state, rule, run);
+    const SolverReport report = solver.make({})->advance(cube.system(solver), state, rule, run);
     EXPECT_TRUE(report.converged());
     EXPECT_LE(report.residual(), 5e-3);
     EXPECT_GT(report.rows(), 1000);
-    for (Index i = 0; i < 6; ++i) EXPECT_NEAR(state.x(i, 0), radiosity[i], 5 * state.standard_error(i, 0)) << name;
+    for (Index i = 0; i < 6; ++i)
+      EXPECT_NEAR(state.x(i, 0), radiosity[i], 5 * state.standard_error(i, 0)) << solver.name;
   }
 }
 
 TEST(RandomWalks, are_the_same_for_any_number_of_threads) {
   const SixFaces cube;
-  for (const std::string& name : solver_names(true))
+  for (const SolverEntry& solver : known_solvers())
     for (const char* sequence : {"independent", "sobol"}) {
+      if (!solver.samples()) continue;
       SolverSettings settings;
       settings.sequence = sequence;
       StoppingRule rule;
@@ -137,9 +142,9 @@ TEST(RandomWalks, are_the_same_for_any_number_of_threads) {
       for (const unsigned threads : {1u, 2u, 3u, 8u}) {
         core::LocalRun run(4, threads);
         SolverState state{cube.e};
-        make_solver(name, settings)->advance(cube.system(), state, rule, run);
+        solver.make(settings)->advance(cube.system(solver), state, rule, run);
         if (first.size() == 0) first = state.x;
-        EXPECT_EQ(state.x, first) << name << ' ' << threads;
+        EXPECT_EQ(state.x, first) << solver.name << ' ' << threads;
       }
     }
 }

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-
 #include <cmath>
 
+#include "core/error.h"
 #include "core/moments.h"
+#include "solvers/constant_control_variate.h"
+#include "solvers/line_transfer.h"
+#include "solvers/ray_transfer.h"
 #include "tests/solvers/six_faces.h"
 
 namespace interflect::solvers {
@@ -15,7 +18,7 @@ namespace {
 // docs/truths.md 1.18: the variance of a ray, of one bounce of the solution.  By 400 000 rays within five of its own
 // standard errors, sqrt(kurtosis / n), about 1 %.
 /// What single rays say of one bounce of a power, per face.
-std::array<core::ScalarMoments, 6> scores_of(const PowerTransfer& transfer, std::uint64_t seed) {
+std::array<core::ScalarMoments, 6> scores_of(const SampledBounce& transfer, std::uint64_t seed) {
   const auto sequence = core::make_sequence("independent", seed);
   std::array<core::ScalarMoments, 6> scores;
   ColumnMatrix reflected(6, 1);
@@ -61,10 +64,60 @@ TEST(PowerTransfer, carries_light_both_ways) {
   }
 }
 
+// Lines through everything: light of all elements on an equal footing, wherever it comes from.
+TEST(LineTransfer, has_the_mean_and_the_variance_that_are_known) {
+  const SixFaces cube;
+  const System system = cube.system();
+  const ColumnMatrix power = power_of_cube();
+  const auto scores = scores_of(LineTransfer(system, power), 5);
+  for (Index i = 0; i < 6; ++i) {
+    const core::ScalarMoments& score = scores[std::size_t(i)];
+    const double rho = cube.rho(i, 0), b = radiosity[i] - cube.e(i, 0), M = cube.K.matrix().sum();
+    const double known = .5 * rho * rho * M * (cube.K.matrix().row(i) * power.cwiseAbs2())(0) - b * b;
+    EXPECT_NEAR(score.mean(), b, 4.5 * score.standard_error()) << i;
+    EXPECT_NEAR(score.variance() / known, 1, .03) << i;
+  }
+}
+
+// Less a constant: a variance by |B - beta|, with beta the median by area, which is less.
+TEST(ConstantControlVariate, has_the_mean_and_the_variance_that_are_known) {
+  const SixFaces cube;
+  const System system = cube.system();
+  const ColumnMatrix power = power_of_cube();
+  const ConstantControlVariate transfer(system, power, ray_transfer(system));
+  EXPECT_EQ(transfer.constant()(0), power(2, 0)) << "the third of six";
+  const Eigen::VectorXd left = (power.array() - transfer.constant()(0)).abs();
+  const auto scores = scores_of(transfer, 6);
+  double less = 0, more = 0;
+  for (Index i = 0; i < 6; ++i) {
+    const core::ScalarMoments& score = scores[std::size_t(i)];
+    const double rho = cube.rho(i, 0), b = radiosity[i] - cube.e(i, 0), by_rays = b - rho * transfer.constant()(0);
+    const double known = rho * rho * left.sum() * cube.K.matrix().row(i).dot(left) - by_rays * by_rays;
+    EXPECT_NEAR(score.mean(), b, 4.5 * score.standard_error()) << i;
+    EXPECT_NEAR(score.variance() / known, 1, .03) << i;
+    less += known, more += rho * power.sum() * b - b * b;
+  }
+  EXPECT_LT(less, .75 * more);
+}
+
+TEST(ConstantControlVariate, is_of_closed_rooms) {
+  const FullOperator closed = random_operator(9, 3);
+  const Eigen::VectorXd areas = Eigen::Map<const Eigen::VectorXd>(closed.gram().data(), 9);
+  const FullOperator K(.9 * closed.matrix(), areas);
+  const MatrixSampler walks(K);
+  const ColumnMatrix rho = random_columns(9, 1, .1, .9, 4);
+  const Reflection R(rho);
+  SolverState state{rho};
+  core::LocalRun run;
+  EXPECT_THROW(make_solver("control-variate-stochastic-jacobi")->advance({K, R, rho, &walks}, state, {}, run),
+               core::InputError);
+}
+
 // Of many short solves: none is off in the mean, however few rays its last bounces have.
 TEST(StochasticJacobi, is_unbiased_with_few_rays) {
   const SixFaces cube;
-  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi", "bidirectional-stochastic-jacobi"})
+  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi", "bidirectional-stochastic-jacobi",
+                           "control-variate-stochastic-jacobi", "global-line-stochastic-jacobi", "stochastic-ray"})
     for (const char* sequence : {"independent", "stratified", "sobol"}) {
       SolverSettings settings;
       settings.replications = 4000;
@@ -82,7 +135,8 @@ TEST(StochasticJacobi, is_unbiased_with_few_rays) {
 // Noise falls with the rays: 16 times as many, a quarter of it.
 TEST(StochasticJacobi, is_a_quarter_as_noisy_by_sixteen_times_the_rays) {
   const SixFaces cube;
-  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi", "bidirectional-stochastic-jacobi"}) {
+  for (const char* name : {"stochastic-jacobi", "regular-stochastic-jacobi", "bidirectional-stochastic-jacobi",
+                           "control-variate-stochastic-jacobi", "global-line-stochastic-jacobi", "stochastic-ray"}) {
     double noise[2];
     for (const int more : {0, 1}) {
       SolverSettings settings;

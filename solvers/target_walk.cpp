@@ -1,0 +1,76 @@
+#include "solvers/target_walk.h"
+
+#include "solvers/potential.h"
+#include "solvers/sampled_rounds.h"
+#include "solvers/system_check.h"
+
+namespace interflect::solvers {
+
+std::string TargetWalk::name() const {
+  switch (way_) {
+    case Way::optimal_sources:
+      return "optimal-sources";
+    case Way::potential_driven:
+      return "potential-driven";
+    case Way::adjoint:
+      break;
+  }
+  return "adjoint";
+}
+
+SolverReport TargetWalk::advance(const System& system, SolverState& state, const StoppingRule& rule, Run& run) const {
+  require_target(system, name());
+  require_walks(system, name());
+  require_constants(system, name());
+  require_solvable(system);
+  if (!prepare(system, state)) return {.why = SolverReport::Stopped::nothing_to_do};
+  return way_ == Way::adjoint ? gather(system, state, rule, run) : shoot(system, state, rule, run);
+}
+
+SolverReport TargetWalk::shoot(const System& system, SolverState& state, const StoppingRule& rule, Run& run) const {
+  ElementWalks walks(system, ElementWalks::Score::collision);
+  const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), walks.first_numbers());
+  const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
+    std::uint64_t draws = 0;
+    for (std::uint64_t k = begin; k < end; ++k) {
+      stop.here(k);
+      draws += walks.shoot(numbers(r, k), sum);
+    }
+    return draws;
+  };
+  const auto prepare = [&](std::uint64_t begin, std::uint64_t end) {
+    Potential potential(system, settings_, run,
+                        potential_rays(system, (end - begin) * static_cast<std::uint64_t>(settings_.replications)));
+    if (way_ == Way::potential_driven)
+      walks.prefer_ways(potential.of_a_walk());
+    else
+      walks.prefer_sources(potential.of_a_walk());
+    return potential.draws();
+  };
+  return sample_in_rounds(system, state, rule, settings_, {256, 1, add, prepare}, run);
+}
+
+SolverReport TargetWalk::gather(const System& system, SolverState& state, const StoppingRule& rule, Run& run) const {
+  const ElementWalks walks(system, ElementWalks::Score::collision);
+  const Eigen::Map<const Eigen::VectorXd> t(system.target.data(), system.e.rows());
+  const PowerDraw starts(t.asDiagonal() * system.R.reflectance());
+  const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), 1 + walks.first_numbers());
+  const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
+    std::uint64_t draws = 0;
+    for (std::uint64_t k = begin; k < end && !starts.nothing(); ++k) {
+      stop.here(k);
+      WalkNumbers of_walk = numbers(r, k);
+      const auto [i, probability] = starts(of_walk.next(1)[0]);
+      draws += walks.gather(i, of_walk, [&sum, i = i, p = probability](const Eigen::RowVectorXd& scored, Index) {
+        sum.row(i) += scored / p;
+      });
+    }
+    return draws;
+  };
+  SampledRounds rounds{256, 1, add};
+  for (Index i = 0; i < system.e.rows(); ++i)
+    if (starts.nothing() || !(starts.probability(i) > 0)) rounds.unanswered.push_back(i);
+  return sample_in_rounds(system, state, rule, settings_, rounds, run);
+}
+
+}  // namespace interflect::solvers
