@@ -169,6 +169,8 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
   add_folder(*command, options->out, "the table and the plots");
   command->add_option("--solvers", options->solvers, "Which ones; default: all but `automatic`, which is one of them")
       ->check(CLI::IsMember(solvers::solver_names()));
+  command->add_option("--goal", options->goal,
+                      "One number that is asked for: a sensor, a surface, or camera:NAME; errors are of it then");
   add_equations(*command, options->settings);
 }
 

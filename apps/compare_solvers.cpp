@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "apps/commands.h"
+#include "apps/goals.h"
 #include "apps/read_scene.h"
 #include "apps/table.h"
 #include "core/format.h"
@@ -83,7 +84,10 @@ results::Record record_of(const fem::SolverComparison& comparison) {
 /// @param with_samples  those that sample have rays, and no rows
 visual::Plot plot_of(const fem::SolverComparison& comparison, const std::string& x_label, bool with_samples,
                      double (*x)(const SolverScore::At&, double unknowns)) {
-  visual::Plot plot{"linear solvers: error against " + x_label, x_label, "relative error, L2 over the surfaces", {}};
+  visual::Plot plot{"linear solvers: error against " + x_label,
+                    x_label,
+                    comparison.of_goal ? "relative error of the goal" : "relative error, L2 over the surfaces",
+                    {}};
   for (const SolverScore& score : comparison.scores) {
     if (score.samples && !with_samples) continue;
     visual::Plot::Curve curve{score.solver, {}, {}};
@@ -105,10 +109,18 @@ void write_plots(const std::filesystem::path& folder, const fem::SolverCompariso
 }
 #endif
 
+/// Of all, where none are asked for: `automatic` is one of the others, and some are for a goal.
+bool is_compared(const std::string& solver, bool with_goal) {
+  return solver != "automatic" &&
+         (with_goal || solvers::solver_named(solver).needs != solvers::SolverEntry::Needs::target);
+}
+
 }  // namespace
 
 ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOptions& common, Run& run) {
   const scene::Scene scene = read_and_note(options.scene);
+  std::optional<fem::Goal> goal;
+  if (!options.goal.empty()) goal = goal_named(options.goal, scene, measure::sensor_points(scene));
   const results::OutputDirectory folder(options.out);
   const bool talk = !common.json && !common.quiet;
   const auto told = [&](const SolverScore& score) {
@@ -119,8 +131,8 @@ ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOpt
   std::vector<std::string> names = options.solvers;
   if (names.empty())
     for (const std::string& each : solvers::solver_names())
-      if (each != "automatic") names.push_back(each);  // which is one of the others
-  const fem::SolverComparison comparison = fem::compare_solvers(scene, options.settings, names, run, told);
+      if (is_compared(each, goal.has_value())) names.push_back(each);
+  const fem::SolverComparison comparison = fem::compare_solvers(scene, options.settings, names, goal, run, told);
   results::write_atomically(options.out / "solvers.csv", csv_of(comparison.scores));
 #ifdef INTERFLECT_WITH_VTK
   write_plots(options.out, comparison);

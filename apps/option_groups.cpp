@@ -144,11 +144,29 @@ void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
       ->check(within(1e-3, 1.999))
       ->capture_default_str();
   add_overshoot(command, s.solver_settings.overshoot);
+  command
+      .add_option("--noise", s.stopping.noise,
+                  "Relative standard error, L2 of what is reflected, at which those stop that sample")
+      ->transform(fraction())
+      ->check(within(1e-6, 0.5))
+      ->default_str("1%");
+  command.add_option("--sequence", s.solver_settings.sequence, "Of numbers that those sample by")
+      ->check(CLI::IsMember(core::sequence_names()))
+      ->capture_default_str();
+}
+
+/// Those whose answer is all of the solution.
+std::vector<std::string> solvers_of_all() {
+  using Needs = solvers::SolverEntry::Needs;
+  return solvers::solver_names(
+      {Needs::products, Needs::symmetry, Needs::walks, Needs::lines, Needs::points, Needs::closed_room});
 }
 
 void add_solver(CLI::App& command, fem::RadiositySettings& s) {
-  command.add_option("--solver", s.solver, "Linear solver; interflect solvers tells of each")
-      ->check(CLI::IsMember(solvers::solver_names(false)))
+  command
+      .add_option("--solver", s.solver,
+                  "Linear solver; interflect solvers tells of each, and which sample, without a matrix")
+      ->check(CLI::IsMember(solvers_of_all()))
       ->capture_default_str();
   add_solver_settings(command, s);
 }
@@ -294,12 +312,6 @@ void add_equations(CLI::App& command, fem::RadiositySettings& s) {
   add_quadrature_tolerance(command, s.quadrature_tolerance, "an unoccluded form factor");
   add_drop_below(command, s.drop_below);
   add_solver_settings(command, s);
-  command.add_option("--noise", s.stopping.noise, "Relative standard error at which those stop that sample")
-      ->check(within(1e-6, 0.5))
-      ->capture_default_str();
-  command.add_option("--sequence", s.solver_settings.sequence, "Of numbers that those sample by")
-      ->check(CLI::IsMember(core::sequence_names()))
-      ->capture_default_str();
 }
 
 }  // namespace interflect::apps

@@ -94,6 +94,7 @@ struct CompareSolversOptions {
   std::filesystem::path scene, out;
   fem::RadiositySettings settings;
   std::vector<std::string> solvers;  ///< empty: all
+  std::string goal;                  ///< the one number asked for (goals.h); empty: all of the solution
 };
 
 struct ShootOptions {

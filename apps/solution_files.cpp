@@ -151,6 +151,9 @@ results::Record settings_record(const fem::RadiositySettings& settings, const Ra
       .add("projection", fem::name_of(settings.projection))
       .add("solver", settings.solver)
       .add("solver_tolerance", settings.stopping.tolerance)
+      .add("noise", settings.stopping.noise)
+      .add("sequence", settings.solver_settings.sequence)
+      .add("replications", settings.solver_settings.replications)
       .add("intersector", settings.intersector)
       .add("quadrature_tolerance", settings.quadrature_tolerance)
       .add("row_tolerance", settings.row_tolerance)
@@ -169,11 +172,12 @@ results::Record form_factor_record(const RadiositySolution& solution) {
       .add("pairs_clear", solution.pairs.clear)
       .add("pairs_sampled", solution.pairs.sampled)
       .add("rays", solution.pairs.rays)
-      .add("clamped", solution.pairs.clamped)
-      .add("row_sum_mean", solution.rows.mean)
-      .add("row_sum_lowest", solution.rows.lowest)
-      .add("row_sum_highest", solution.rows.highest)
-      .add("largest_row_error", solution.largest_row_error)
+      .add("clamped", solution.pairs.clamped);
+  if (!solution.row_sum.empty())
+    record.add("row_sum_mean", solution.rows.mean)
+        .add("row_sum_lowest", solution.rows.lowest)
+        .add("row_sum_highest", solution.rows.highest);
+  record.add("largest_row_error", solution.largest_row_error)
       .add("tolerance_met", solution.tolerance_met)
       .add("kept_share", solution.kept_share)
       .add("dropped_mean", solution.mean_dropped)
@@ -288,6 +292,18 @@ std::string sensors_text(const SolvedScene& solved) {
   return "\n" + table.text() + "\n" + means;
 }
 
+/// @param samples  its residual is noise
+std::string solver_text(const solvers::SolverReport& report, bool samples) {
+  const std::string why = solvers::describe(report.why);
+  if (samples)
+    return core::format("solver      %s after %d rounds and %s rays, standard error %s (L2) of what is reflected\n",
+                        why.c_str(), report.iterations(),
+                        core::format_count(static_cast<unsigned long long>(report.rows())).c_str(),
+                        core::format_percent(report.residual()).c_str());
+  return core::format("solver      %s after %d iterations, residual %.1e\n", why.c_str(), report.iterations(),
+                      report.residual());
+}
+
 std::string solution_text(const SolvedScene& solved) {
   const RadiositySolution& s = solved.solution;
   const fem::ErrorSummary error = fem::summarise_error(s, solved.scene);
@@ -295,16 +311,16 @@ std::string solution_text(const SolvedScene& solved) {
                                   core::format_count(static_cast<unsigned long long>(s.mesh.size())).c_str(),
                                   s.mesh.longest_edge(), core::format_bytes(s.bytes).c_str());
   text += energy_text(solved);
-  text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest,
-                       s.rows.highest);
+  if (!s.row_sum.empty())
+    text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest,
+                         s.rows.highest);
   text += matrix_text(s);
   text += core::format("irradiance  mean %.5g %s, error about %s (L2, estimated) and noise %s\n", error.mean_irradiance,
                        solved.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
                        core::format_percent(error.relative_noise_l2).c_str());
   if (solved.bounds) text += bounds_text(solved, *solved.bounds);
   if (solved.residual) text += residual_text(solved, *solved.residual);
-  text += core::format("solver      %s after %d iterations, residual %.1e\n", solvers::describe(s.solver.why).c_str(),
-                       s.solver.iterations(), s.solver.residual());
+  text += solver_text(s.solver, s.row_sum.empty());
   text += "time        ";
   for (const fem::StageCost& stage : s.stages)
     text += core::format("%s %s  ", stage.stage.c_str(), core::format_duration(stage.seconds).c_str());

@@ -142,6 +142,14 @@ ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& comm
   return success;
 }
 
+/// Whether it is as far as a run came that was stopped, and as good as any: all else that belongs to it is to be there.
+static bool is_part_of_more(const fem::RadiositySolution& solution) {
+  using Stopped = solvers::SolverReport::Stopped;
+  const auto& made = solution.adaptation;
+  return (made && made->why == fem::AdaptiveStop::asked_to_stop) || solution.solver.why == Stopped::asked_to ||
+         solution.solver.why == Stopped::time_limit;
+}
+
 std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions& options, const CommonOptions& common,
                                          Run& asked) {
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
@@ -159,8 +167,7 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
   }
   std::fflush(stdout);
   auto solution = fem::solve_radiosity(scene, settings, asked);
-  const auto& made = solution.adaptation;
-  Run run = made && made->why == fem::AdaptiveStop::asked_to_stop ? asked.to_the_end() : asked;
+  Run run = is_part_of_more(solution) ? asked.to_the_end() : asked;
   auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution));
   solved->folder = std::move(folder);
   solved->points = std::move(points);

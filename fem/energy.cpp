@@ -81,8 +81,9 @@ EnergyBalance energy_balance(const RadiositySolution& s, const LostRays& lost) {
     const double area = s.mesh.patches()[i].area;
     energy.emitted += area * s.exitance[i];
     energy.absorbed += area * (s.irradiance[i] - s.reflectance[i] * s.irradiance[i]);
-    unaccounted += area * (1.0 - s.row_sum[i]) * s.radiosity[i];
+    if (!s.row_sum.empty()) unaccounted += area * (1.0 - s.row_sum[i]) * s.radiosity[i];
   }
+  if (s.row_sum.empty()) unaccounted = lost.escaped + lost.on_backs;
   energy.escaped = lost.escaped;
   energy.on_backs = lost.on_backs;
   energy.on_backs_error = lost.on_backs_error;

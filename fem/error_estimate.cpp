@@ -248,6 +248,40 @@ Spectrum irradiance_variation(const RadiositySolution& s, std::size_t element) {
   return sqrt(sum / 3.0);
 }
 
+/// The variation of irradiance inside an element, less what independent noise of siblings makes of it: (1 - 1/4) / 3 of its
+/// variance.
+static Spectrum variation_without_noise(const RadiositySolution& s, std::size_t i) {
+  const Spectrum variation = irradiance_variation(s, i), noise = .25 * s.own_variance(i);
+  return (variation * variation - noise).map([](double square) { return std::sqrt(std::max(0.0, square)); });
+}
+
+void estimate_errors_alone(RadiositySolution& s, std::span<const Spectrum> bound, const Spectrum& missing) {
+  std::vector<Spectrum> variation;
+  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+    variation.push_back(variation_without_noise(s, i));
+    s.field_error.push_back(s.reflectance[i] * variation[i]);
+  }
+  const Spectrum of_all = area_mean(s.mesh, s.field_error), later = later_bounces(s);
+  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+    const Spectrum in_all_bounces = of_all + (bound.empty() ? Spectrum::zero() : bound[i]);
+    s.irradiance_error.push_back(missing + variation[i] + in_all_bounces + later * in_all_bounces);
+  }
+}
+
+std::vector<Spectrum> means_of_fours(const mesh::ElementMesh& mesh, std::span<const Spectrum> values) {
+  std::vector<Spectrum> means;
+  for (std::size_t first = 0; first < values.size(); first += 4) {
+    Spectrum sum;
+    double area = 0;
+    for (std::size_t k = first; k < first + 4; ++k) {
+      sum += mesh.patches()[k].area * values[k];
+      area += mesh.patches()[k].area;
+    }
+    means.insert(means.end(), 4, sum / area);
+  }
+  return means;
+}
+
 void estimate_errors(RadiositySolution& s, const ErrorSources& from, int channels, Run& run) {
   SampledNoise noise = sampled_noise(s, from.K, channels, run);
   if (from.K.has_errors()) {

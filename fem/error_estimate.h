@@ -59,6 +59,16 @@ struct ErrorSources {
 /// Test: tests/fem/error_estimate.cpp, by coverage.
 void estimate_errors(RadiositySolution& solution, const ErrorSources& from, int channels, Run& run);
 
+/// The same where no matrix tells what halving the elements would change, of constants whose irradiance_noise is there:
+/// what irradiance varies by inside the element, and radiosity in the mean of all elements, and what form factors lack, over
+/// 1 - mean rho for all bounces; and what is missing anyhow.  Of siblings' differences noise is subtracted.
+/// @param bound  of form factors, on one bounce; empty: none
+/// @param missing  on irradiance, in all elements
+void estimate_errors_alone(RadiositySolution& solution, std::span<const Spectrum> bound, const Spectrum& missing);
+
+/// Of four elements that are the quarters of one, for each of them.
+std::vector<Spectrum> means_of_fours(const mesh::ElementMesh& mesh, std::span<const Spectrum> values);
+
 /// By area.
 Spectrum area_mean(const mesh::ElementMesh& mesh, std::span<const Spectrum> values);
 

@@ -6,6 +6,7 @@
 #include "fem/goal/adaptive_elements.h"
 #include "fem/method_trial.h"
 #include "fem/radiosity_operator.h"
+#include "fem/sampled_radiosity.h"
 #include "fem/space/polynomials.h"
 #include "fem/tolerance_trial.h"
 #include "mesh/uniform.h"
@@ -14,7 +15,7 @@ namespace interflect::fem {
 
 namespace {
 
-constexpr double default_elements = 2500, most_elements_to_mesh = 200'000, bytes_an_element = 4000;
+constexpr double default_elements = 2500, most_elements_to_mesh = 200'000, bytes_an_element = bytes_of_an_element;
 
 using Granularity = FormFactorMethod::Granularity;
 
@@ -159,6 +160,7 @@ mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySetti
 }
 
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
+  if (solvers::solver_named(settings.solver).samples()) return forecast_of_sampling(scene, settings, run);
   require_compatible(settings);
   const mesh::ElementMesh mesh = settings.adaptive ? first_elements(scene, settings, *settings.adaptive)
                                                    : elements_of(scene, settings);  // little beside what is forecast

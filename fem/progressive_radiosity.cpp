@@ -67,21 +67,6 @@ Spectrum noise_of_mean(const mesh::ElementMesh& mesh, std::span<const Spectrum> 
   return sqrt(sum) / area;
 }
 
-/// Of four elements that are the quarters of one, for each of them.
-std::vector<Spectrum> means_of_fours(const mesh::ElementMesh& mesh, std::span<const Spectrum> values) {
-  std::vector<Spectrum> means;
-  for (std::size_t first = 0; first < values.size(); first += 4) {
-    Spectrum sum;
-    double area = 0;
-    for (std::size_t k = first; k < first + 4; ++k) {
-      sum += mesh.patches()[k].area * values[k];
-      area += mesh.patches()[k].area;
-    }
-    means.insert(means.end(), 4, sum / area);
-  }
-  return means;
-}
-
 }  // namespace
 
 ProgressiveRadiosity::ProgressiveRadiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run)
@@ -168,17 +153,8 @@ RadiositySolution ProgressiveRadiosity::shown(const Shots& shots, const solvers:
   const Spectrum later = later_bounces(s);
   const std::vector<Spectrum> bound = to_spectra(shots.bound), variance = to_spectra(shots.variance);
   s.shared_noise = later * noise_of_mean(mesh_, variance);
-  std::vector<Spectrum> variation;
-  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
-    variation.push_back(irradiance_variation(s, i));
-    s.field_error.push_back(s.reflectance[i] * variation[i]);
-  }
-  const Spectrum of_all = area_mean(mesh_, s.field_error);
-  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
-    const Spectrum in_all_bounces = bound[i] + of_all;
-    s.irradiance_error.push_back(missing + variation[i] + in_all_bounces + later * in_all_bounces);
-    s.irradiance_noise.push_back(sqrt(variance[i] + s.shared_noise * s.shared_noise));
-  }
+  for (const Spectrum& own : variance) s.irradiance_noise.push_back(sqrt(own + s.shared_noise * s.shared_noise));
+  estimate_errors_alone(s, bound, missing);
   s.coarse_radiosity = means_of_fours(mesh_, s.radiosity);
   s.solver = report;
   s.pairs = K_.counts();

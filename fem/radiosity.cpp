@@ -1,13 +1,11 @@
 #include "fem/radiosity.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
-#include "core/memory.h"
 #include "fem/assembly.h"
 #include "fem/closure.h"
 #include "fem/columns.h"
@@ -19,33 +17,13 @@
 #include "fem/polynomial_radiosity.h"
 #include "fem/radiosity_operator.h"
 #include "fem/row_sum_check.h"
+#include "fem/sampled_radiosity.h"
+#include "fem/stage_clock.h"
 #include "measure/light_groups.h"
 
 namespace interflect::fem {
 
 namespace {
-
-class StageClock {
- public:
-  explicit StageClock(std::vector<StageCost>& stages) : stages_(stages) {}
-  template <class Work>
-  auto operator()(const std::string& stage, const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    struct Record {
-      ~Record() {
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-        stages.push_back({name, elapsed.count(), core::peak_memory_bytes()});
-      }
-      std::vector<StageCost>& stages;
-      const std::string& name;
-      std::chrono::steady_clock::time_point begin;
-    } const record{stages_, stage, start};
-    return work();
-  }
-
- private:
-  std::vector<StageCost>& stages_;
-};
 
 /// b = e + R G^-1 K b from a fresh start.
 solvers::ColumnMatrix solve_system(const SymmetricOperator& K, const solvers::ColumnMatrix& exitance,
@@ -290,6 +268,7 @@ RadiositySolution solution_of(const std::string& group, const Equations& equatio
 }  // namespace
 
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& asked) {
+  if (solvers::solver_named(settings.solver).samples()) return sample_radiosity(scene, settings, asked);
   require_compatible(settings);
   std::vector<StageCost> stages;
   StageClock timed(stages);

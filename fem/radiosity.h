@@ -50,6 +50,9 @@ double element_size_of(const scene::Scene& scene, const RadiositySettings& setti
 /// @throws core::InputError  where they need more memory than `max_memory`, saying which element size would fit
 mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings);
 
+/// What an element carries beside K [bytes].
+constexpr double bytes_of_an_element = 4000;
+
 /// The same where no matrix is stored: by what elements carry themselves.
 mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySettings& settings);
 
@@ -94,7 +97,7 @@ struct EnergyBalance {
 };
 
 struct RowSums {
-  double mean, lowest, highest;  ///< of sum_j F_ij; 1 in a closed scene
+  double mean = 0, lowest = 0, highest = 0;  ///< of sum_j F_ij; 1 in a closed scene
 };
 
 /// A solved scene: constants on elements, or means of polynomials on them (`field`), all per element in the order of the
@@ -145,7 +148,8 @@ struct RadiositySolution {
 double mean_environment(const RadiositySolution& solution);
 
 /// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their
-/// children's, so that visibility is sampled once), and estimates the error from the difference (error_estimate.h).
+/// children's, so that visibility is sampled once), and estimates the error from the difference (error_estimate.h); or
+/// without any matrix, by a solver that samples (sampled_radiosity.h).
 /// @throws core::InputError   no elements, too little memory, unknown names, a closure that cannot be (closure.h)
 /// @throws core::Interrupted
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);

@@ -20,7 +20,7 @@ using solvers::ColumnMatrix;
 /// A scene's equations, with all that they are made of.
 class Equations {
  public:
-  Equations(const scene::Scene& scene, const RadiositySettings& settings, Run& run)
+  Equations(const scene::Scene& scene, const RadiositySettings& settings, const std::optional<Goal>& goal, Run& run)
       : mesh_(elements_of(scene, settings)) {
     if (mesh_.size() == 0) throw core::InputError("the scene has no surface that light could leave");
     rays_ = raycast::make_ray_caster(settings.intersector, scene);
@@ -38,7 +38,8 @@ class Equations {
       nodes_.emplace(node_equations(settings.projection, scene, mesh_, of_blocks.order, K, run));
       columns = at_nodes(exitance, reflectance, channels, nodes_->nodes);
     }
-    if (!from_.blocks && !nodes_) walks_.emplace(mesh_.patches(), *rays_);
+    if (!nodes_) walks_.emplace(mesh_.patches(), *rays_, settings.order);
+    if (goal) target_ = target_of(weights_of(*goal, scene, mesh_, *rays_, settings.order, run), run);
     e_ = std::move(columns.e);
     R_.emplace(std::move(columns.R));
   }
@@ -47,14 +48,30 @@ class Equations {
   solvers::System system() const {
     const SymmetricOperator& K = from_.blocks ? *from_.blocks : *from_.K;
     return {nodes_ ? static_cast<const solvers::TransportOperator&>(nodes_->T) : K, *R_, e_,
-            walks_ ? &*walks_ : nullptr};
+            walks_ ? &*walks_ : nullptr, target_};
   }
 
  private:
+  /// t of J = sum t b: what is wanted of B, and what is of H, A_i H_i = sum_b K_ib b_b with the first functions of elements.
+  std::vector<double> target_of(const GoalWeights& weights, Run& run) const {
+    if (nodes_) throw core::InputError("--goal", "values at nodes have none; --projection galerkin would do");
+    std::vector<double> target = weights.direct;
+    if (weights.arriving.empty()) return target;
+    const SymmetricOperator& K = from_.blocks ? *from_.blocks : *from_.K;
+    const Index n = K.layout().unknowns(), functions = n / K.layout().elements();
+    ColumnMatrix wanted = ColumnMatrix::Zero(n, 1), sent(n, 1);
+    for (std::size_t i = 0; i < weights.arriving.size(); ++i)
+      wanted(static_cast<Index>(i) * functions, 0) = weights.arriving[i];
+    K.apply(wanted, sent, run);
+    for (std::size_t a = 0; a < target.size(); ++a) target[a] += sent(static_cast<Index>(a), 0);
+    return target;
+  }
+
   mesh::ElementMesh mesh_;
   std::unique_ptr<raycast::RayCaster> rays_;
   RadiosityOperator from_;
-  std::optional<RayTransitions> walks_;  ///< of constants
+  std::optional<RayTransitions> walks_;
+  std::vector<double> target_;
   std::optional<NodeEquations> nodes_;
   ColumnMatrix e_;
   std::optional<solvers::Reflection> R_;
@@ -68,6 +85,14 @@ double relative_error(const ColumnMatrix& x, const ColumnMatrix& y, std::span<co
   return size > 0 ? norm(x - y) / size : 0;
 }
 
+/// |J - J_h|, relative: of what solvers say of J that know of it, or of what their x makes it.
+double error_of_target(const solvers::System& system, const solvers::SolverState& now, const ColumnMatrix& solution) {
+  const Eigen::Map<const Eigen::RowVectorXd> t(system.target.data(), solution.rows());
+  const Eigen::RowVectorXd exact = t * solution;
+  const Eigen::RowVectorXd found = now.target.size() > 0 ? now.target : t * solvers::for_display(system, now);
+  return exact.norm() > 0 ? (found - exact).norm() / exact.norm() : 0;
+}
+
 SolverScore score(const std::string& name, const solvers::System& system, const ColumnMatrix& solution,
                   const RadiositySettings& settings, Run& run) {
   SolverScore out{name, solvers::solver_named(name).samples(), {}, ""};
@@ -78,7 +103,9 @@ SolverScore score(const std::string& name, const solvers::System& system, const 
   state.observer = [&](const solvers::SolverState& now, const solvers::SolverReport& report) {
     const auto start = std::chrono::steady_clock::now();
     const solvers::IterationRecord& last = report.history.back();
-    const double error = relative_error(solvers::for_display(system, now), solution, system.K.gram());
+    const double error = system.target.empty()
+                             ? relative_error(solvers::for_display(system, now), solution, system.K.gram())
+                             : error_of_target(system, now, solution);
     out.history.push_back({last.rows, last.seconds - looking, error, last.residual});
     looking += core::seconds_since(start);
   };
@@ -94,15 +121,15 @@ SolverScore score(const std::string& name, const solvers::System& system, const 
 }  // namespace
 
 SolverComparison compare_solvers(const scene::Scene& scene, const RadiositySettings& settings,
-                                 std::span<const std::string> names, Run& run,
+                                 std::span<const std::string> names, const std::optional<Goal>& goal, Run& run,
                                  const std::function<void(const SolverScore&)>& scored) {
   require_compatible(settings);
-  const Equations equations(scene, settings, run);
+  const Equations equations(scene, settings, goal, run);
   const solvers::System system = equations.system();
   solvers::SolverState solution{system.e};
   solvers::make_solver("automatic")->advance(system, solution, {1e-13, 200}, run);
   run.throw_if_stopped("comparing solvers");
-  SolverComparison out{equations.elements(), system.e.rows(), {}};
+  SolverComparison out{equations.elements(), system.e.rows(), goal.has_value(), {}};
   core::Progress::Stage stage(run.progress, "solvers", names.size());
   for (const std::string& name : names) {
     out.scores.push_back(score(name, system, solution.x, settings, run));

@@ -4,6 +4,8 @@
 
 #include "core/error.h"
 #include "fem/radiosity_operator.h"
+#include "measure/sensor_points.h"
+#include "scene/reader.h"
 #include "tests/fem/rooms.h"
 
 namespace interflect::fem {
@@ -68,6 +70,86 @@ TEST(SolversOnACube, need_as_many_iterations_as_are_known) {
   }
 }
 
+/// Whether a solver says of these equations what it may say of them.
+bool may_refuse(const SolverScore& score, Projection projection, int order) {
+  using Needs = solvers::SolverEntry::Needs;
+  const auto says = [&](const char* word) { return score.why.find(word) != std::string::npos; };
+  const Needs needs = solvers::solver_named(score.solver).needs;
+  if (needs == Needs::products) return false;
+  if (needs == Needs::symmetry) return projection != Projection::galerkin && says("symmetric");
+  if (projection != Projection::galerkin) return says("rays") || says("target");
+  if (needs == Needs::target) return says("target") || says("constants");
+  if (order > 0) return score.solver.find("stochastic-jacobi") != 0 && says("constants");
+  if (needs == Needs::closed_room) return says("closed");  // a lamp's back is black
+  return score.solver == "gathering-survival" && says("source");
+}
+
+// A goal has all arrive at its one number, and those that are for it as well.
+TEST(SolverComparison, of_a_goal_has_all_arrive_at_one_number) {
+  Room room;
+  room.box({0, 0, 0}, {2, 1, 1}, 1, true, .5, 0);
+  room.wall({.5, .3, .99}, {0, .4, 0}, {.4, 0, 0}, 1, .2, 1);
+  const scene::Scene scene = room.finish();
+  core::LocalRun run(1, 2);
+  const Goal goals[] = {
+      {"floor", Goal::OnSurface{scene.surface_ids().front(), scene::Side::front}},
+      {"point", Goal::AtPoints{{measure::PointIrradiance{Vec3(1.6, .5, .4), Vec3(-1, 0, .2).normalized(), {}}}}}};
+  for (const Goal& goal : goals)
+    for (const int order : {0, 1}) {
+      RadiositySettings settings;
+      settings.form_factors = "analytic";
+      settings.element_size = .6;
+      settings.order = order;
+      settings.stopping.tolerance = 1e-11;
+      const SolverComparison all =
+          compare_solvers(scene, settings, solvers::solver_names(), goal, run.get(), [](const SolverScore&) {});
+      EXPECT_TRUE(all.of_goal);
+      int asked = 0;
+      for (const SolverScore& score : all.scores) {
+        if (score.history.empty()) {
+          EXPECT_TRUE(order > 0 || score.why.find("closed") != std::string::npos) << score.solver << score.why;
+          continue;
+        }
+        const bool to_light = score.solver == "continuous-shooting";
+        EXPECT_LT(score.history.back().error, to_light        ? .1
+                                              : score.samples ? 4.5 * score.history.back().residual
+                                                              : 1e-9)
+            << score.solver << ' ' << goal.name << order;
+        ++asked;
+      }
+      EXPECT_GE(asked, order == 0 ? std::ssize(solvers::solver_names()) - 1 : 10);
+    }
+}
+
+// The mean on the work plane of the room without a lamp, for as many rays from the lamp: rays drawn for it leave a third of the
+// variance at most, and less for as many rays in all, those that find out what light is worth included.
+TEST(SolverComparison, of_two_rooms_has_importance_lower_the_variance) {
+  const scene::Scene scene = scene::read_scene(INTERFLECT_SOURCE_DIR "/data/scenes/two_rooms.json");
+  Goal::AtPoints plane;
+  for (const measure::SensorPoint& point : measure::sensor_points(scene))
+    if (point.sensor == "dark_plane") plane.points.push_back(point.at);
+  RadiositySettings settings;
+  settings.element_size = .5;
+  settings.stopping.samples = 200 * 4096;
+  settings.solver_settings.replications = 200;
+  core::LocalRun run(2, 2);
+  const std::string names[] = {"stochastic-jacobi", "importance-driven-stochastic-jacobi", "shooting-collision",
+                               "potential-driven"};
+  const SolverComparison all =
+      compare_solvers(scene, settings, names, Goal{"dark_plane", plane}, run.get(), [](const SolverScore&) {});
+  std::vector<double> variance, work;
+  for (const SolverScore& score : all.scores) {
+    ASSERT_EQ(score.why, "converged") << score.solver;
+    const SolverScore::At& last = score.history.back();
+    EXPECT_LT(last.error, 4.5 * last.residual + .002) << score.solver;
+    variance.push_back(last.residual * last.residual);
+    work.push_back(variance.back() * last.rows);
+  }
+  EXPECT_GT(variance[0], 3 * variance[1]);
+  EXPECT_GT(work[0], 1.3 * work[1]);
+  EXPECT_GT(variance[2], 1.3 * variance[3]);
+}
+
 // All that go by one operator arrive at one solution, whatever the unknowns are; those that cannot have it say why.
 TEST(SolverComparison, has_all_arrive_at_one_solution) {
   Room room;
@@ -84,22 +166,22 @@ TEST(SolverComparison, has_all_arrive_at_one_solution) {
       settings.projection = projection;
       settings.stopping.tolerance = 1e-11;
       int told = 0;
-      const SolverComparison all =
-          compare_solvers(scene, settings, solvers::solver_names(), run.get(), [&](const SolverScore&) { ++told; });
+      const SolverComparison all = compare_solvers(scene, settings, solvers::solver_names(), std::nullopt, run.get(),
+                                                   [&](const SolverScore&) { ++told; });
       EXPECT_EQ(told, std::ssize(solvers::solver_names()));
       EXPECT_GT(all.elements, 20);
       for (const SolverScore& score : all.scores) {
         if (score.history.empty()) {
-          const bool no_source = score.solver == "gathering-survival" && score.why.find("source") != std::string::npos;
-          EXPECT_TRUE(projection == Projection::gauss_points || (score.samples && order > 0) || no_source)
-              << score.solver;
-          EXPECT_TRUE(no_source || score.why.find(score.samples ? "rays" : "symmetric") != std::string::npos)
-              << score.why;
+          EXPECT_TRUE(may_refuse(score, projection, order)) << score.solver << ": " << score.why;
           continue;
         }
         EXPECT_EQ(score.why, "converged") << score.solver;
-        EXPECT_LT(score.history.back().error, score.samples ? 3 * score.history.back().residual : 1e-9) << score.solver;
-        EXPECT_GT(score.history.front().error, score.history.back().error);
+        const bool to_light = score.solver == "continuous-shooting";  // and not to what elements of .6 m make of it
+        const double allowed = to_light ? .1 : score.samples ? 3 * score.history.back().residual : 1e-9;
+        EXPECT_LT(score.history.back().error, allowed) << score.solver;
+        if (!score.samples) {
+          EXPECT_GT(score.history.front().error, score.history.back().error) << score.solver;
+        }
         for (std::size_t k = 1; k < score.history.size(); ++k)
           EXPECT_GE(score.history[k].rows, score.history[k - 1].rows);
       }

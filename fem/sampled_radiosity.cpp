@@ -1,0 +1,182 @@
+#include "fem/sampled_radiosity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/format.h"
+#include "core/log.h"
+#include "fem/columns.h"
+#include "fem/element_materials.h"
+#include "fem/energy.h"
+#include "fem/error_estimate.h"
+#include "fem/operator/areas_alone.h"
+#include "fem/ray_transitions.h"
+#include "fem/stage_clock.h"
+#include "measure/light_groups.h"
+
+namespace interflect::fem {
+namespace {
+
+using solvers::ColumnMatrix;
+
+constexpr double least_reflectance = 1e-9;  ///< so that black elements are scored, and nothing else changes
+
+void require_constants(const RadiositySettings& settings) {
+  const auto refuse = [&](const std::string& what) {
+    throw core::InputError("solver '" + settings.solver + "', which needs no matrix", "it does not go with " + what);
+  };
+  if (settings.order > 0)
+    refuse(core::format("polynomials of order %d here; compare-solvers has them", settings.order));
+  if (settings.projection != Projection::galerkin) refuse("values at nodes");
+  if (settings.adaptive) refuse("elements made for a goal");
+  if (settings.closure != "none") refuse("a closure that is restored: there are no form factors");
+  if (settings.drop_below > 0) refuse("pairs left out (drop-below)");
+  if (settings.row_tolerance > 0) refuse("a tolerance of rows: there are none");
+  if (settings.stored_factors) refuse("view factors of a file");
+  if (solvers::solver_named(settings.solver).needs == solvers::SolverEntry::Needs::target)
+    refuse("a whole solution: it is for one number, as compare-solvers --goal asks for");
+}
+
+/// A scene's elements and rays, and what goes by them.
+class Sampling {
+ public:
+  Sampling(const scene::Scene& scene, const RadiositySettings& settings, const mesh::ElementMesh& mesh)
+      : scene_(scene),
+        settings_(settings),
+        mesh_(mesh),
+        materials_(materials_of(scene, mesh.patches())),
+        rays_(raycast::make_ray_caster(settings.intersector, scene)),
+        walks_(mesh.patches(), *rays_),
+        K_(areas_of(mesh)),
+        rho_(to_columns(materials_.reflectance, scene.channel_count()).cwiseMax(least_reflectance)),
+        R_(rho_) {
+    const bool survivors = settings.solver == "shooting-survival" || settings.solver == "gathering-survival";
+    if (survivors && (rho_.array() <= least_reflectance).any())
+      throw core::InputError("solver '" + settings.solver + "'",
+                             "what reflects nothing is not found where walks go on; '" +
+                                 settings.solver.substr(0, settings.solver.find('-')) + "-collision' would do");
+  }
+
+  const ElementMaterials& materials() const { return materials_; }
+  const raycast::RayCaster& rays() const { return *rays_; }
+
+  /// What an exitance leads to.
+  RadiositySolution solved(const std::vector<Spectrum>& exitance, const solvers::StoppingRule& rule, Run& run) const {
+    const ColumnMatrix e = to_columns(exitance, scene_.channel_count());
+    RadiositySolution s(mesh_, element_size_of(scene_, settings_));
+    s.exitance = exitance;
+    s.reflectance = materials_.reflectance;
+    solvers::SolverState state{e};
+    s.solver = solvers::make_solver(settings_.solver, settings_.solver_settings)
+                   ->advance({K_, R_, e, &walks_}, state, rule, run);
+    if (s.solver.why != solvers::SolverReport::Stopped::nothing_to_do && s.solver.history.empty())
+      throw core::Interrupted("solve");
+    const ColumnMatrix H = (state.x - e).cwiseQuotient(rho_);
+    s.irradiance = to_spectra(H);
+    for (std::size_t i = 0; i < exitance.size(); ++i)
+      s.radiosity.push_back(exitance[i] + s.reflectance[i] * s.irradiance[i]);
+    set_noise(s, state);
+    estimate_errors_alone(s, {}, Spectrum::zero());
+    s.coarse_radiosity = means_of_fours(mesh_, s.radiosity);
+    s.pairs.rays = static_cast<std::uint64_t>(s.solver.rows());
+    s.bytes = 8.0 * static_cast<double>(e.size()) * settings_.solver_settings.replications;
+    return s;
+  }
+
+ private:
+  static std::vector<double> areas_of(const mesh::ElementMesh& mesh) {
+    std::vector<double> areas;
+    for (const scene::SurfacePatch& patch : mesh.patches()) areas.push_back(patch.area);
+    return areas;
+  }
+
+  /// Standard errors of irradiance, and what of them is one and the same deviation in all: with x = rho H + e, the sum
+  /// S of G x varies by  Var S = sum (G rho)² own² + (sum G rho)² shared².
+  void set_noise(RadiositySolution& s, const solvers::SolverState& state) const {
+    const Index n = rho_.rows();
+    ColumnMatrix noise = ColumnMatrix::Zero(n, rho_.cols());
+    if (state.standard_error.size() > 0) noise = state.standard_error.cwiseQuotient(rho_);
+    const Eigen::Map<const Eigen::ArrayXd> G(K_.gram().data(), n);
+    for (Index c = 0; c < noise.cols() && state.standard_error.size() > 0; ++c) {
+      const double of_a_ray = (G * state.x.col(c).array()).sum() / std::max(1.0, s.solver.rows());
+      const auto known = noise.col(c).array() > 0;
+      noise.col(c) = known.select(noise.col(c).array(), of_a_ray / G).matrix();
+      const Eigen::ArrayXd reflecting = G * rho_.col(c).array();
+      const double alone = (reflecting * noise.col(c).array()).square().sum(), all = reflecting.sum(),
+                   together = state.power_error(c) * state.power_error(c);
+      const double shared = std::sqrt(std::max(0.0, (together - alone) / (all * all - reflecting.square().sum())));
+      s.shared_noise[static_cast<int>(c)] = std::isfinite(shared) ? shared : 0;
+      noise.col(c) = noise.col(c).cwiseMax(s.shared_noise[static_cast<int>(c)]);
+    }
+    s.irradiance_noise = to_spectra(noise);
+  }
+
+  const scene::Scene& scene_;
+  const RadiositySettings& settings_;
+  const mesh::ElementMesh& mesh_;
+  ElementMaterials materials_;
+  std::unique_ptr<raycast::RayCaster> rays_;
+  RayTransitions walks_;
+  AreasAlone K_;
+  ColumnMatrix rho_;
+  solvers::Reflection R_;
+};
+
+mesh::ElementMesh mesh_of(const scene::Scene& scene, const RadiositySettings& settings) {
+  mesh::ElementMesh mesh = elements_alone(scene, settings);
+  if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
+  return mesh;
+}
+
+std::vector<Spectrum> of_group(const std::string& group, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                               std::vector<Spectrum> exitance) {
+  for (std::size_t i = 0; i < exitance.size(); ++i)
+    if (scene.material(mesh.patches()[i].surface).light_group() != group) exitance[i] = Spectrum::zero();
+  return exitance;
+}
+
+}  // namespace
+
+RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
+  require_constants(settings);
+  std::vector<StageCost> stages;
+  StageClock timed(stages);
+  const mesh::ElementMesh mesh = timed("mesh", [&] { return mesh_of(scene, settings); });
+  const Sampling sampling = timed("ray tree", [&] { return Sampling(scene, settings, mesh); });
+  RadiositySolution s =
+      timed("solve", [&] { return sampling.solved(sampling.materials().exitance, settings.stopping, run); });
+  Run rest = run.to_the_end();  // what there is is written, however soon the solve was stopped
+  if (settings.light_groups)
+    timed("light groups", [&] {
+      for (const std::string& group : measure::light_groups(scene)) {
+        const std::vector<Spectrum> exitance = of_group(group, scene, mesh, sampling.materials().exitance);
+        s.of_groups.push_back(sampling.solved(exitance, settings.stopping, run));
+      }
+    });
+  timed("energy balance", [&] {
+    const LostRays lost = cast_lost_rays(scene, mesh.patches(), s.radiosity, sampling.rays(), rest);
+    s.closed = lost.lost == 0;
+    s.energy = energy_balance(s, lost);
+  });
+  s.stages = std::move(stages);
+  return s;
+}
+
+Forecast forecast_of_sampling(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
+  require_constants(settings);
+  const mesh::ElementMesh mesh = mesh_of(scene, settings);
+  const Sampling sampling(scene, settings, mesh);
+  solvers::StoppingRule first_round = settings.stopping;
+  first_round.max_iterations = 1;
+  Run trial = run.to_the_end();
+  const auto start = std::chrono::steady_clock::now();
+  const RadiositySolution tried = sampling.solved(sampling.materials().exitance, first_round, trial);
+  const double times = tried.solver.residual() / settings.stopping.noise;
+  const double a_column = 8.0 * scene.channel_count() * (settings.solver_settings.replications + 4);
+  const auto elements = static_cast<double>(mesh.size());
+  return {elements, elements * (bytes_of_an_element + a_column),
+          core::seconds_since(start) * std::max(1.0, times * times)};
+}
+
+}  // namespace interflect::fem
