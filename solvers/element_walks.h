@@ -47,6 +47,11 @@ class WalkSequences {
 /// random_walk.h.  With several columns walks are shared: they go on with the probability sum T rho / sum T of what they
 /// carry, T a column, which is changed so that each has the right mean; of one column that is rho.
 class ElementWalks {
+  /// Of draws that lead from element to element.
+  auto between_elements(WalkNumbers& numbers) const {
+    return [this, &numbers](Index from) { return system_.walks->from_element(from, numbers.next(draw_)); };
+  }
+
  public:
   enum class Score { absorption, survival, collision };
   /// The system outlives this.
@@ -83,9 +88,6 @@ class ElementWalks {
   Row rho(Index a) const { return system_.R.reflectance().row(a); }
   double going_on(Index at, const Row& carried, const Row& reflected) const;
 
-  auto between_elements(WalkNumbers& numbers) const {
-    return [this, &numbers](Index from) { return system_.walks->from_element(from, numbers.next(draw_)); };
-  }
   template <class Next>
   std::uint64_t shoot_by(const Next& next, WalkNumbers& numbers, ColumnMatrix& sum) const;
 
