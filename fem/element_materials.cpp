@@ -17,6 +17,12 @@ ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::
   return out;
 }
 
+void leave_group_alone(std::span<Spectrum> exitance, const std::string& group, const scene::Scene& scene,
+                       std::span<const scene::SurfacePatch> patches) {
+  for (std::size_t i = 0; i < exitance.size(); ++i)
+    if (scene.material(patches[i].surface).light_group() != group) exitance[i] = Spectrum::zero();
+}
+
 MaterialColumns on_functions(std::span<const Spectrum> exitance, std::span<const Spectrum> reflectance, int channels,
                              std::span<const int> degree, Index functions) {
   const Index elements = std::ssize(degree);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/spectrum.h"
@@ -15,6 +16,10 @@ struct ElementMaterials {
   std::vector<Spectrum> exitance, reflectance;
 };
 ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches);
+
+/// Exitance of the elements that are not of a light group becomes 0.
+void leave_group_alone(std::span<Spectrum> exitance, const std::string& group, const scene::Scene& scene,
+                       std::span<const scene::SurfacePatch> patches);
 
 /// The same of unknowns, unknowns x channels: e of a system, and the diagonal of R.
 struct MaterialColumns {

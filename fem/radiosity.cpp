@@ -258,8 +258,7 @@ void estimate_with(const Equations& equations, const Found& found, RadiositySolu
 RadiositySolution solution_of(const std::string& group, const Equations& equations, const RadiositySolution& dark,
                               Run& run) {
   RadiositySolution s = dark;
-  for (std::size_t i = 0; i < s.exitance.size(); ++i)
-    if (equations.scene.material(s.mesh.patches()[i].surface).light_group() != group) s.exitance[i] = Spectrum::zero();
+  leave_group_alone(s.exitance, group, equations.scene, s.mesh.patches());
   const Found found = solve_with(equations, s, run);
   estimate_with(equations, found, s, run);
   return s;

@@ -129,11 +129,16 @@ mesh::ElementMesh mesh_of(const scene::Scene& scene, const RadiositySettings& se
   return mesh;
 }
 
-std::vector<Spectrum> of_group(const std::string& group, const scene::Scene& scene, const mesh::ElementMesh& mesh,
-                               std::vector<Spectrum> exitance) {
-  for (std::size_t i = 0; i < exitance.size(); ++i)
-    if (scene.material(mesh.patches()[i].surface).light_group() != group) exitance[i] = Spectrum::zero();
-  return exitance;
+/// As accurate as the settings ask for, or, where the run is stopped, by one round: what is written has all groups.
+RadiositySolution to_some_end(const Sampling& sampling, const std::vector<Spectrum>& exitance,
+                              solvers::StoppingRule rule, Run& run) {
+  try {
+    return sampling.solved(exitance, rule, run);
+  } catch (const core::Interrupted&) {
+    rule.max_iterations = 1;
+    Run to_the_end = run.to_the_end();
+    return sampling.solved(exitance, rule, to_the_end);
+  }
 }
 
 }  // namespace
@@ -150,8 +155,9 @@ RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySet
   if (settings.light_groups)
     timed("light groups", [&] {
       for (const std::string& group : measure::light_groups(scene)) {
-        const std::vector<Spectrum> exitance = of_group(group, scene, mesh, sampling.materials().exitance);
-        s.of_groups.push_back(sampling.solved(exitance, settings.stopping, run));
+        std::vector<Spectrum> exitance = sampling.materials().exitance;
+        leave_group_alone(exitance, group, scene, mesh.patches());
+        s.of_groups.push_back(to_some_end(sampling, exitance, settings.stopping, run));
       }
     });
   timed("energy balance", [&] {

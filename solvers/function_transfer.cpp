@@ -3,17 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-
 namespace interflect::solvers {
 namespace {
-
-const PointTransitions& points_of(const System& system) {
-  const PointTransitions* points = system.walks->points();
-  if (points == nullptr || system.K.layout().elements() * points->functions() != system.e.rows())
-    throw core::InputError("solve by rays", "they have no points with the functions of the operator");
-  return *points;
-}
 
 /// A_j times the root mean square of B_j, elements x columns.
 ColumnMatrix sizes_of(const PointTransitions& points, std::span<const double> gram, const ColumnMatrix& coefficients) {
@@ -33,7 +24,7 @@ ColumnMatrix per_area(const ColumnMatrix& power, std::span<const double> gram) {
 
 FunctionTransfer::FunctionTransfer(const System& system, const ColumnMatrix& power)
     : system_(system),
-      points_(points_of(system)),
+      points_(*system.walks->points()),
       coefficients_(per_area(power, system.K.gram())),
       draw_(sizes_of(points_, system.K.gram(), coefficients_)) {}
 

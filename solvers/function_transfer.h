@@ -18,7 +18,7 @@ namespace interflect::solvers {
 /// elements m f E rays are asked for, m = 4 + 2 rho² / (1 - rho²), so that rho sqrt(1 + 1 / m) < 1.
 class FunctionTransfer final : public SampledBounce {
  public:
-  /// All outlive this.  @throws core::InputError  where walks have no points, or other functions than K
+  /// All outlive this.  Walks have points with the functions of K (require_walks).
   FunctionTransfer(const System& system, const ColumnMatrix& power);
   void add(const core::SampleSequence& sequence, std::uint64_t first, std::uint64_t count, double weight,
            ColumnMatrix& reflected) const override;

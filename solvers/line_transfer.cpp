@@ -1,16 +1,9 @@
 #include "solvers/line_transfer.h"
 
-#include "core/error.h"
-
 namespace interflect::solvers {
 
-static const LineExchanges& lines_of(const System& system) {
-  if (system.walks->lines() == nullptr) throw core::InputError("solve by lines through everything", "there are none");
-  return *system.walks->lines();
-}
-
 LineTransfer::LineTransfer(const System& system, const ColumnMatrix& power)
-    : system_(system), power_(power), lines_(lines_of(system)) {}
+    : system_(system), power_(power), lines_(*system.walks->lines()) {}
 
 void LineTransfer::add(const core::SampleSequence& sequence, std::uint64_t first, std::uint64_t count, double weight,
                        ColumnMatrix& reflected) const {

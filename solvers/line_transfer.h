@@ -15,7 +15,7 @@ namespace interflect::solvers {
 /// V = rho_i² M / (2 G_i²) sum_j K_ij B_j² - b_i².
 class LineTransfer final : public SampledBounce {
  public:
-  /// All outlive this.  @throws core::InputError  where walks have no lines
+  /// All outlive this.  Walks have lines (require_lines).
   LineTransfer(const System& system, const ColumnMatrix& power);
   void add(const core::SampleSequence& sequence, std::uint64_t first, std::uint64_t count, double weight,
            ColumnMatrix& reflected) const override;

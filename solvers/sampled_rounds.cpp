@@ -31,7 +31,7 @@ double target_noise(const System& system, SolverState& state, const Replications
   double largest = 0;
   for (Index c = 0; c < state.target.size(); ++c) {
     const bool dark = (system.e.col(c).array() == 0).all() || (t.array() == 0).all();
-    if (state.target_error(c) > 0)
+    if (state.target_error(c) > 0 && state.target(c) != 0)
       largest = std::max(largest, state.target_error(c) / std::abs(state.target(c)));
     else if (!dark && done < many)
       largest = 1;
