@@ -18,7 +18,8 @@ ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& 
   }
   if (options.residual) solved->residual = equation_residual(*solved, run);
   write_solution(*solved, options, common, run);
-  if (options.settings.light_groups) write_light_groups(*solved, options.out, run);
+  Run to_the_end = run.to_the_end();  // what there is of a run that was stopped is written, groups and all
+  if (options.settings.light_groups) write_light_groups(*solved, options.out, to_the_end);
   if (common.json)
     std::printf("%s\n", results::json_text(summary_record(*solved, options, common, run)).c_str());
   else if (!common.quiet)
