@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string_view>
 
 /// Counter-based random numbers: a number is a pure function of what it serves (seed, stream, index, dimension), so
@@ -41,9 +42,9 @@ constexpr RandomBlock random_block(std::uint64_t seed, std::uint32_t stream, std
 /// A uniform number in [0, 1) with 32 bits; it never rounds up to 1.
 constexpr double uniform_32(std::uint32_t bits) { return bits * 0x1p-32; }
 
-/// A uniform number in [0, 1) with 53 bits.
+/// A uniform number in [0, 1) with 53 bits.  (By way of signed integers, which processors convert at once.)
 constexpr double uniform_53(std::uint32_t high, std::uint32_t low) {
-  return static_cast<double>((std::uint64_t{high} << 21) ^ (low >> 11)) * 0x1p-53;
+  return static_cast<double>((std::int64_t{high} << 21) ^ (low >> 11)) * 0x1p-53;
 }
 
 /// The seed of one purpose ("visibility", "pixels"), so that two rooms never share a number by accident.
@@ -81,5 +82,11 @@ class RandomNumbers {
   RandomBlock block_{};
   int used_ = 2;
 };
+
+/// What RandomNumbers(seed, stream, first + k) gives first, of each k after the other: `dimensions` numbers.  Several times
+/// sooner than one by one, since samples share each instruction.
+/// @param u  overwritten; dimensions a sample
+void random_numbers(std::uint64_t seed, std::uint32_t stream, std::uint64_t first, std::size_t dimensions,
+                    std::span<double> u);
 
 }  // namespace interflect::core

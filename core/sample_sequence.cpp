@@ -21,6 +21,9 @@ class Independent final : public SampleSequence {
  public:
   explicit Independent(std::uint64_t seed) : seed_(seed) {}
   void point(std::uint64_t k, std::span<double> u) const override { fill({seed_, 0, k}, u); }
+  void points(std::uint64_t first, std::size_t dimensions, std::span<double> u) const override {
+    random_numbers(seed_, 0, first, dimensions, u);
+  }
   std::unique_ptr<SampleSequence> replicate(std::uint64_t number) const override {
     return std::make_unique<Independent>(seed_of_replication(seed_, number));
   }
@@ -83,6 +86,11 @@ class ShiftedSobol final : public SampleSequence {
 };
 
 }  // namespace
+
+void SampleSequence::points(std::uint64_t first, std::size_t dimensions, std::span<double> u) const {
+  for (std::size_t k = 0; (k + 1) * dimensions <= u.size(); ++k)
+    point(first + k, u.subspan(k * dimensions, dimensions));
+}
 
 std::vector<std::string> sequence_names() { return {"independent", "stratified", "sobol"}; }
 

@@ -22,6 +22,9 @@ class SampleSequence {
   virtual ~SampleSequence() = default;
   /// @param u  overwritten by numbers in [0, 1)
   virtual void point(std::uint64_t k, std::span<double> u) const = 0;
+  /// Points from `first` on, one after the other, each of so many dimensions: the same numbers, where it can be sooner.
+  /// @param u  overwritten; as long as some points
+  virtual void points(std::uint64_t first, std::size_t dimensions, std::span<double> u) const;
   /// One of the same kind, independent of this one and of all with another number.
   virtual std::unique_ptr<SampleSequence> replicate(std::uint64_t number) const = 0;
 };

@@ -1,8 +1,13 @@
 #include "fem/ray_transitions.h"
 
+#include <algorithm>
+#include <array>
+
 #include "fem/space/polynomials.h"
 
 namespace interflect::fem {
+
+static_assert(ElementLocator::none == solvers::TransitionSampler::nowhere);
 
 RayTransitions::RayTransitions(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int order)
     : rays_(rays), locate_(patches), lines_(patches, rays, locate_), functions_(plane_functions(order)) {
@@ -17,9 +22,13 @@ RayTransitions::Point RayTransitions::point_on(Index element, std::span<const do
   return {element, senders_[static_cast<std::size_t>(element)].map(u[0], u[1])};
 }
 
-std::optional<RayTransitions::Point> RayTransitions::from_point(const Point& point, std::span<const double> u) const {
+raycast::Ray RayTransitions::ray_from(const Point& point, std::span<const double> u) const {
   const core::Frame& frame = senders_[static_cast<std::size_t>(point.element)].frame;
-  const auto hit = rays_.closest({point.position, frame.to_world(core::cosine_hemisphere(u[0], u[1])), frame.n});
+  return {point.position, frame.to_world(core::cosine_hemisphere(u[0], u[1])), frame.n};
+}
+
+std::optional<RayTransitions::Point> RayTransitions::from_point(const Point& point, std::span<const double> u) const {
+  const auto hit = rays_.closest(ray_from(point, u));
   if (!hit) return std::nullopt;
   const Index j = locate_(*hit);
   return j == ElementLocator::none ? std::nullopt : std::optional<Point>({j, hit->position});
@@ -28,6 +37,22 @@ std::optional<RayTransitions::Point> RayTransitions::from_point(const Point& poi
 std::optional<Index> RayTransitions::from_element(Index i, std::span<const double> u) const {
   const auto arrived = from_point(point_on(i, u), u.subspan(2));
   return arrived ? std::optional<Index>(arrived->element) : std::nullopt;
+}
+
+void RayTransitions::from_elements(std::span<const Index> from, std::span<const double> u,
+                                   std::span<Index> arrived) const {
+  constexpr std::size_t at_once = 64;  // what they take stays in the first cache
+  std::array<raycast::Ray, at_once> rays;
+  std::array<std::optional<scene::SurfacePoint>, at_once> hits;
+  for (std::size_t first = 0; first < from.size(); first += at_once) {
+    const std::size_t n = std::min(at_once, from.size() - first);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto numbers = u.subspan(4 * (first + k), 4);
+      rays[k] = ray_from(point_on(from[first + k], numbers), numbers.subspan(2));
+    }
+    rays_.closest_each(std::span(rays).first(n), hits);
+    locate_(std::span(hits).first(n), arrived.subspan(first, n));
+  }
 }
 
 void RayTransitions::functions_at(const Point& point, std::span<double> values) const {

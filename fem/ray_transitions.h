@@ -28,6 +28,7 @@ class RayTransitions final : public solvers::TransitionSampler, public solvers::
   RayTransitions& operator=(const RayTransitions&) = delete;
   int dimensions() const override { return 4; }
   std::optional<Index> from_element(Index i, std::span<const double> u) const override;
+  void from_elements(std::span<const Index> from, std::span<const double> u, std::span<Index> arrived) const override;
   const PointTransitions* points() const override { return this; }
   const solvers::LineExchanges* lines() const override { return &lines_; }
 
@@ -38,6 +39,8 @@ class RayTransitions final : public solvers::TransitionSampler, public solvers::
   void functions_at(const Point& point, std::span<double> values) const override;
 
  private:
+  raycast::Ray ray_from(const Point& point, std::span<const double> u) const;
+
   const raycast::RayCaster& rays_;
   ElementLocator locate_;
   LinesThrough lines_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace interflect::geometry {
 
@@ -21,13 +22,36 @@ BoxGrid::BoxGrid(std::span<const Box> boxes) {
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t k = 0; k < boxes.size(); ++k)
     for_cells(boxes[k], [&](std::size_t cell) { items_[next[cell]++] = k; });
+  sort_by_overlap(boxes);
 }
 
-/// As many along each axis as boxes fit there, but not eight times as many as there are boxes.
+void BoxGrid::sort_by_overlap(std::span<const Box> boxes) {
+  std::array<std::uint32_t, 3> cell{};
+  // Of those axes alone that are cut: along others boxes may be flat.
+  const auto overlap = [&](std::uint32_t item) {
+    double product = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (cells_[a] == 1) continue;
+      const double low = low_[axis] + cell[a] / per_length_[axis], high = low + 1 / per_length_[axis];
+      product *= std::min(high, boxes[item].max()[axis]) - std::max(low, boxes[item].min()[axis]);
+    }
+    return product;
+  };
+  for (cell[2] = 0; cell[2] < cells_[2]; ++cell[2])
+    for (cell[1] = 0; cell[1] < cells_[1]; ++cell[1])
+      for (cell[0] = 0; cell[0] < cells_[0]; ++cell[0]) {
+        const std::size_t at = index(cell);
+        const auto items = std::span(items_).subspan(first_[at], first_[at + 1] - first_[at]);
+        std::ranges::stable_sort(items, std::greater<>(), overlap);
+      }
+}
+
+/// Twice as many along each axis as boxes fit there, so that the first one of a cell often holds all of it, but not eight times as many as there are boxes.
 void BoxGrid::choose_cells(const Box& all, const Vec3& mean_sides, double boxes) {
   Vec3 count;
   for (int axis = 0; axis < 3; ++axis)
-    count[axis] = mean_sides[axis] > 0 ? std::max(1.0, all.sizes()[axis] / mean_sides[axis]) : 1.0;
+    count[axis] = mean_sides[axis] > 0 ? std::max(1.0, 2 * all.sizes()[axis] / mean_sides[axis]) : 1.0;
   const double too_many = count.prod() / (8 * boxes);
   if (too_many > 1) count = (count / std::cbrt(too_many)).cwiseMax(1.0);
   low_ = all.min();

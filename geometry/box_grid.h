@@ -9,14 +9,15 @@
 
 namespace interflect::geometry {
 
-/// Boxes in the cells of a uniform grid, about as large as boxes are in the mean: which boxes may hold a point, at once.
+/// Boxes in the cells of a uniform grid, about half as large as boxes are in the mean: which boxes may hold a point, at once.
 /// For many boxes of like sizes, as elements of a surface have; a tree (box_tree.h) does for others.
 class BoxGrid {
  public:
   BoxGrid() = default;
   explicit BoxGrid(std::span<const Box> boxes);
 
-  /// Positions in the boxes given, in their order: all that hold x, and others near it.
+  /// Positions in the boxes given: all that hold x, and others near it.  First those that fill most of x's cell, which
+  /// likely hold it, equal ones in their order.
   std::span<const std::uint32_t> near(const Vec3& x) const {
     if (first_.empty()) return {};
     const std::size_t cell = index({at(0, x), at(1, x), at(2, x)});
@@ -37,6 +38,7 @@ class BoxGrid {
   void choose_cells(const Box& all, const Vec3& mean_sides, double boxes);
   template <class Visit>
   void for_cells(const Box& box, const Visit& visit) const;
+  void sort_by_overlap(std::span<const Box> boxes);
 
   Vec3 low_ = Vec3::Zero(), per_length_ = Vec3::Zero();
   std::array<std::uint32_t, 3> cells_{1, 1, 1};

@@ -101,14 +101,26 @@ class EmbreeCaster final : public RayCaster {
   double offset() const override { return frame_.offset(relative_offset); }
 
   std::optional<scene::SurfacePoint> closest(const Ray& ray) const override {
-    RTCRayHit query;
-    query.ray = ray_from(to_unit_(ray.origin, ray.leaves), ray.direction, std::numeric_limits<float>::infinity());
-    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = query_from(ray);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(bvh_.get(), &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return surface_point(facets_[query.hit.primID], query.hit.primID, ray.direction, query.hit.u, query.hit.v);
+    return hit_of(query, ray);
+  }
+
+  /// By loops of one step each, so that processors compute several rays' steps at once.
+  void closest_each(std::span<const Ray> rays, std::span<std::optional<scene::SurfacePoint>> hits) const override {
+    if (hits.size() < rays.size()) throw core::PreconditionError("closest_each: one answer per ray expected");
+    constexpr std::size_t at_once = 64;
+    std::array<RTCRayHit, at_once> queries;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (std::size_t first = 0; first < rays.size(); first += at_once) {
+      const std::size_t n = std::min(at_once, rays.size() - first);
+      for (std::size_t k = 0; k < n; ++k) queries[k] = query_from(rays[first + k]);
+      for (std::size_t k = 0; k < n; ++k) rtcIntersect1(bvh_.get(), &context, &queries[k]);
+      for (std::size_t k = 0; k < n; ++k) hits[first + k] = hit_of(queries[k], rays[first + k]);
+    }
   }
 
   void all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const override {
@@ -117,9 +129,7 @@ class EmbreeCaster final : public RayCaster {
     Gathering gathering{{}, met};
     rtcInitIntersectContext(&gathering.context);
     gathering.context.filter = gather;
-    RTCRayHit query;
-    query.ray = ray_from(to_unit_(ray.origin, ray.leaves), ray.direction, std::numeric_limits<float>::infinity());
-    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = query_from(ray);
     rtcIntersect1(filtered_.get(), &gathering.context, &query);
     for (Crossing& crossing : met) crossing.t = distance(ray, crossing);
     std::ranges::sort(met, {}, [](const Crossing& crossing) { return std::pair(crossing.t, crossing.facet); });
@@ -159,6 +169,19 @@ class EmbreeCaster final : public RayCaster {
   static RTCRay ray_from(const Vec3& origin, const Vec3& direction, float tfar) {
     const Eigen::Vector3f o = origin.cast<float>(), d = direction.cast<float>();
     return {o.x(), o.y(), o.z(), 0, d.x(), d.y(), d.z(), 0, tfar, every_mask, 0, 0};
+  }
+
+  RTCRayHit query_from(const Ray& ray) const {
+    RTCRayHit query;
+    query.ray = ray_from(to_unit_(ray.origin, ray.leaves), ray.direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return query;
+  }
+
+  std::optional<scene::SurfacePoint> hit_of(const RTCRayHit& answer, const Ray& ray) const {
+    const RTCHit& hit = answer.hit;
+    if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return surface_point(facets_[hit.primID], hit.primID, ray.direction, hit.u, hit.v);
   }
 
   void set_lane(RTCRay8& query, std::size_t lane, const Segment& segment) const {

@@ -17,6 +17,11 @@ constexpr std::array catalogue{Entry{"embree", make_embree_caster}, Entry{"brute
 
 }  // namespace
 
+void RayCaster::closest_each(std::span<const Ray> rays, std::span<std::optional<scene::SurfacePoint>> hits) const {
+  if (hits.size() < rays.size()) throw core::PreconditionError("closest_each: one answer per ray expected");
+  for (std::size_t k = 0; k < rays.size(); ++k) hits[k] = closest(rays[k]);
+}
+
 void RayCaster::all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const {
   hits.clear();
   Ray rest = ray;

@@ -36,6 +36,9 @@ class RayCaster {
 
   /// What the ray meets first; its position recomputed in double precision on the facet's plane.
   virtual std::optional<scene::SurfacePoint> closest(const Ray& ray) const = 0;
+  /// The same of many rays: hits[k] of rays[k].  By default one after the other.
+  /// @param hits  overwritten; no fewer than rays
+  virtual void closest_each(std::span<const Ray> rays, std::span<std::optional<scene::SurfacePoint>> hits) const;
   /// All that the ray meets, in the order of their distance, facets at the same place in the order of the scene;
   /// positions as in `closest`. A line through an edge that two facets share may meet both.  By default one `closest`
   /// after the other, each hit being left through its other side: of surfaces closer to each other than `offset()` some

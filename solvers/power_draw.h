@@ -8,6 +8,9 @@
 
 namespace interflect::solvers {
 
+/// sum |power| of each column, by a pass over memory as it lies.
+Eigen::RowVectorXd column_sizes(const ColumnMatrix& power);
+
 /// Unknowns drawn with a probability in proportion to the power that they send, columns having an equal say: by inversion,
 /// with a guide table [Chen, Asau 1974], in a time that does not grow with their number.
 class PowerDraw {

@@ -30,18 +30,27 @@ class PowerTransfer final : public SampledBounce {
       : PowerTransfer(system, power, lines, power) {}
   /// Drawn in proportion to something else, as PowerDraw does: one way it must not be 0 where power is not.
   PowerTransfer(const System& system, const ColumnMatrix& power, Lines lines, const ColumnMatrix& drawn)
-      : system_(system), power_(power), lines_(lines), draw_(drawn) {}
+      : system_(system),
+        power_(power),
+        lines_(lines),
+        draw_(drawn),
+        sizes_(&drawn == &power ? draw_.sizes() : column_sizes(power)) {}
 
   void add(const core::SampleSequence& sequence, std::uint64_t first, std::uint64_t count, double weight,
            ColumnMatrix& reflected) const override;
-  Eigen::RowVectorXd sizes() const override { return power_.cwiseAbs().colwise().sum(); }
+  Eigen::RowVectorXd sizes() const override { return sizes_; }
   Eigen::RowVectorXd worths() const override { return draw_.sizes(); }
 
  private:
+  /// What a sample that went from j to i brings.
+  void exchange(Index j, Index i, double probability, double of_each, ColumnMatrix& reflected) const;
+  void bring(Index j, Index i, double share, ColumnMatrix& reflected) const;
+
   const System& system_;
   const ColumnMatrix& power_;
   Lines lines_;
   PowerDraw draw_;
+  Eigen::RowVectorXd sizes_;
 };
 
 }  // namespace interflect::solvers

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/power_draw.h"
+
 namespace interflect::solvers {
 namespace {
 
@@ -14,19 +16,18 @@ double largest_share(const Eigen::RowVectorXd& part, const Eigen::RowVectorXd& o
   return largest;
 }
 
-Eigen::RowVectorXd sums(const ColumnMatrix& power) { return power.cwiseAbs().colwise().sum(); }
-
 }  // namespace
 
-ColumnMatrix Bounces::bounced(const SampledBounce& bounce, Index rows, Index columns, std::uint64_t samples) {
-  ColumnMatrix reflected = ColumnMatrix::Zero(rows, columns);
+void Bounces::bounced(const SampledBounce& bounce, std::uint64_t samples, ColumnMatrix& reflected) {
+  reflected.setZero();
   bounce.add(*sequence_.replicate(bounces_++), 0, samples, 1, reflected);
   draws_ += samples;
-  return reflected;
 }
 
 ColumnMatrix Bounces::bounced(const ColumnMatrix& power, std::uint64_t samples) {
-  return bounced(*of_(power), power.rows(), power.cols(), samples);
+  ColumnMatrix reflected(power.rows(), power.cols());
+  bounced(*of_(power), samples, reflected);
+  return reflected;
 }
 
 double Bounces::number() {
@@ -37,9 +38,10 @@ double Bounces::number() {
 
 ColumnMatrix Bounces::incremental(const ColumnMatrix& emitted, std::uint64_t samples,
                                   const std::function<void()>& between) {
-  constexpr double little = 1e-7;
-  const Eigen::RowVectorXd all = sums(emitted);
-  ColumnMatrix sum = ColumnMatrix::Zero(emitted.rows(), emitted.cols()), last = emitted;
+  const double little = std::max(1e-7, 1 / static_cast<double>(samples));  // what one sample carries
+  const Eigen::RowVectorXd all = column_sizes(emitted);
+  Eigen::RowVectorXd sent = all;
+  ColumnMatrix sum = ColumnMatrix::Zero(emitted.rows(), emitted.cols()), last = emitted, next = emitted;
   for (Eigen::RowVectorXd first, first_worth;;) {
     between();
     const auto bounce = of_(last);
@@ -47,13 +49,14 @@ ColumnMatrix Bounces::incremental(const ColumnMatrix& emitted, std::uint64_t sam
     const double by_size = largest_share(bounce->sizes(), first);
     const double share = std::clamp(largest_share(bounce->worths(), first_worth), .5 * by_size, 4 * by_size);
     const auto asked = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(samples)));
-    ColumnMatrix next = bounced(*bounce, last.rows(), last.cols(), std::max(bounce->least_samples(), asked));
+    bounced(*bounce, std::max(bounce->least_samples(), asked), next);
     sum += next;
-    const double kept = std::min(1.0, largest_share(sums(next), sums(last)));
-    last = std::move(next);
-    if (largest_share(sums(last), all) > little) continue;
+    const Eigen::RowVectorXd came = column_sizes(next);
+    const double kept = std::min(1.0, largest_share(came, sent));
+    std::swap(last, next), sent = came;
+    if (largest_share(sent, all) > little) continue;
     if (!(number() < kept)) return sum;
-    last /= kept;
+    last /= kept, sent /= kept;
   }
 }
 

@@ -39,14 +39,15 @@ class Bounces {
   /// What one bounce of a power reflects.
   ColumnMatrix bounced(const ColumnMatrix& power, std::uint64_t samples);
   /// G (b - e) by bounces of bounces, `samples` for what is emitted, and for all that follows as many as its worth asks
-  /// for, between a half and four times what its size does.  Of the last 1e-7 of the power all or nothing goes on, by chance, so that means are right.
+  /// for, between a half and four times what its size does.  Of what is less than one sample carries all or nothing goes on, by
+  /// chance, so that means are right.
   /// @param between  called before every bounce: what it throws ends it
   ColumnMatrix incremental(
       const ColumnMatrix& emitted, std::uint64_t samples, const std::function<void()>& between = [] {});
 
  private:
   double number();
-  ColumnMatrix bounced(const SampledBounce& bounce, Index rows, Index columns, std::uint64_t samples);
+  void bounced(const SampledBounce& bounce, std::uint64_t samples, ColumnMatrix& reflected);
 
   BounceFactory of_;
   const core::SampleSequence& sequence_;

@@ -1,5 +1,6 @@
 #include "solvers/stochastic_jacobi.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error.h"
@@ -89,7 +90,8 @@ SolverReport StochasticJacobi::advance(const System& system, SolverState& state,
     sum += static_cast<double>(samples) * G.cwiseInverse().asDiagonal() * last[k];
     return bounces[k].draws() - before;
   };
-  SampledRounds rounds{256, 1, add};
+  // Bounces pass over all unknowns: with far fewer samples that is all that takes time.
+  SampledRounds rounds{std::max<std::uint64_t>(256, static_cast<std::uint64_t>(system.e.rows()) / 8), 1, add};
   if (kind_ == Kind::importance_driven)
     rounds.prepare = [&](std::uint64_t begin, std::uint64_t end) {
       Potential potential(system, settings_, run,

@@ -53,6 +53,15 @@ class TransitionSampler {
   /// @param u  in [0, 1).  From any thread.
   virtual std::optional<Index> from_element(Index i, std::span<const double> u) const = 0;
 
+  static constexpr Index nowhere = -1;
+  /// The same of many: arrived[k] of from[k], or nowhere.  By default one after the other.
+  /// @param u  dimensions() numbers of each after the other  @param arrived  overwritten; as many as `from`
+  virtual void from_elements(std::span<const Index> from, std::span<const double> u, std::span<Index> arrived) const {
+    const auto draw = static_cast<std::size_t>(dimensions());
+    for (std::size_t k = 0; k < from.size(); ++k)
+      arrived[k] = from_element(from[k], u.subspan(k * draw, draw)).value_or(nowhere);
+  }
+
   virtual const PointTransitions* points() const { return nullptr; }
   virtual const LineExchanges* lines() const { return nullptr; }
 };

@@ -15,9 +15,10 @@ std::size_t slot(scene::SurfaceId surface, scene::Side side) {
 }  // namespace
 
 ElementLocator::Outline ElementLocator::outline_of(const scene::SurfacePatch& patch) {
-  Outline o{
-      patch.corner[0], patch.normal(), {}, {}, relative_thickness * geometry::box_of(patch.ring()).diagonal().norm()};
+  const double extent = geometry::box_of(patch.ring()).diagonal().norm();
+  Outline o{patch.corner[0], patch.normal(), {}, {}, relative_thickness * extent, relative_thickness * extent * extent};
   o.inwards.fill(Vec3::Zero());
+  o.offset.fill(-std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < patch.corners; ++k) {
     const Vec3 edge = patch.corner[(k + 1) % patch.corners] - patch.corner[k];
     o.inwards[k] = o.normal.cross(edge);
@@ -37,29 +38,58 @@ ElementLocator::ElementLocator(std::span<const scene::SurfacePatch> patches) : m
   }
   for (const mesh::ElementMesh::Part& part : mesh_.parts()) {
     part_.resize(std::max(part_.size(), slot(part.surface, part.side) + 1), -1);
-    part_[slot(part.surface, part.side)] = static_cast<std::int32_t>(grids_.size());
-    grids_.emplace_back(std::span(boxes).subspan(part.first, part.count));
+    part_[slot(part.surface, part.side)] = static_cast<std::int32_t>(parts_.size());
+    parts_.push_back({part.first, geometry::BoxGrid(std::span(boxes).subspan(part.first, part.count)),
+                      PlaneOutlines(patches.subspan(part.first, part.count))});
   }
 }
 
-Index ElementLocator::operator()(const scene::SurfacePoint& point) const {
+ElementLocator::Candidates ElementLocator::candidates(const scene::SurfacePoint& point) const {
   const std::size_t at = slot(point.surface, point.side);
-  if (at >= part_.size() || part_[at] < 0) return none;
-  const auto part = static_cast<std::size_t>(part_[at]);
-  const Index first = mesh_.parts()[part].first;
+  if (at >= part_.size() || part_[at] < 0) return {};
+  const Part& part = parts_[static_cast<std::size_t>(part_[at])];
+  return {&part, part.grid.near(point.position), part.outlines.at(point.position)};
+}
 
+Index ElementLocator::among(const Candidates& candidates, const scene::SurfacePoint& point) const {
+  if (candidates.part == nullptr) return none;
+  if (candidates.part->outlines.flat())
+    for (const std::uint32_t item : candidates.items)
+      if (candidates.part->outlines.surely_holds(item, candidates.in_plane)) return candidates.part->first + item;
+  return nearest_among(candidates, point);
+}
+
+/// In double precision, and of several that hold it the one in whose plane it lies.
+Index ElementLocator::nearest_among(const Candidates& candidates, const scene::SurfacePoint& point) const {
   Index found = none;
   double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t item : grids_[part].near(point.position)) {
-    const Outline& o = outlines_[static_cast<std::size_t>(first + item)];
+  for (const std::uint32_t item : candidates.items) {
+    const Index element = candidates.part->first + item;
+    const Outline& o = outlines_[static_cast<std::size_t>(element)];
     const Vec3 d = point.position - o.corner;
-    if (!o.holds(d)) continue;
-    const double height = std::abs(o.normal.dot(d));
-    if (height <= o.thickness && height < least) least = height, found = first + item;
+    const double inside = o.inside(d), height = std::abs(o.normal.dot(d));
+    if (!(inside >= 0 && height <= o.thickness)) continue;
+    if (inside > o.rim) return element;  // no other one of a surface that does not meet itself
+    if (height < least || (height == least && element < found)) least = height, found = element;
   }
   if (found != none) return found;
   const auto nearest = mesh_.locate(point);
   return nearest ? static_cast<Index>(nearest->element.value) : none;
+}
+
+Index ElementLocator::operator()(const scene::SurfacePoint& point) const { return among(candidates(point), point); }
+
+void ElementLocator::operator()(std::span<const std::optional<scene::SurfacePoint>> points,
+                                std::span<Index> elements) const {
+  constexpr std::size_t at_once = 64;
+  std::array<Candidates, at_once> of;
+  for (std::size_t first = 0; first < points.size(); first += at_once) {
+    const auto some = points.subspan(first, std::min(at_once, points.size() - first));
+    for (std::size_t k = 0; k < some.size(); ++k) of[k] = some[k] ? candidates(*some[k]) : Candidates{};
+    for (std::size_t k = 0; k < some.size(); ++k)
+      if (!of[k].items.empty()) of[k].part->outlines.prefetch(of[k].items[0]);
+    for (std::size_t k = 0; k < some.size(); ++k) elements[first + k] = some[k] ? among(of[k], *some[k]) : none;
+  }
 }
 
 }  // namespace interflect::fem

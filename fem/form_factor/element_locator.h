@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "fem/form_factor/plane_outlines.h"
 #include "geometry/box_grid.h"
 #include "mesh/element_mesh.h"
 
@@ -22,28 +25,47 @@ class ElementLocator {
 
   /// The element that holds a point of a side of a surface; `none` where that side has no elements.
   Index operator()(const scene::SurfacePoint& point) const;
+  /// Of many, `none` where there is no point: several times sooner, since their memory is waited for together.
+  /// @param elements  overwritten; as many as points
+  void operator()(std::span<const std::optional<scene::SurfacePoint>> points, std::span<Index> elements) const;
 
  private:
+  /// The elements of a side of a surface.
+  struct Part {
+    Index first;  ///< in the mesh
+    geometry::BoxGrid grid;
+    PlaneOutlines outlines;
+  };
+  /// Elements that may hold a point, likely ones first: items of a part's grid.
+  struct Candidates {
+    const Part* part = nullptr;  ///< null: none
+    std::span<const std::uint32_t> items{};
+    Eigen::Vector2f in_plane = Eigen::Vector2f::Zero();
+  };
   /// The planes through an element and, across it, through its edges.
   struct Outline {
     Vec3 corner, normal;
-    std::array<Vec3, 4> inwards;  ///< zero for what is not an edge
+    std::array<Vec3, 4> inwards;  ///< zero for what is not an edge, its offset below all
     std::array<double, 4> offset;
     double thickness;  ///< how far off its plane a point may be found on it [m]
+    double rim;        ///< no less than `inside` of what lies `thickness` from an edge [m²]
 
-    /// Whether what is d from the corner is on the inner side of all edges.
-    bool holds(const Vec3& d) const {
-      bool all = true;
-      for (std::size_t k = 0; k < 4; ++k) all &= !(inwards[k].dot(d) < offset[k]);
-      return all;
+    /// How far on the inner side of all edges that is which lies d from the corner, times an edge's length [m²].
+    double inside(const Vec3& d) const {
+      double least = inwards[0].dot(d) - offset[0];
+      for (std::size_t k = 1; k < 4; ++k) least = std::min(least, inwards[k].dot(d) - offset[k]);
+      return least;
     }
   };
   static Outline outline_of(const scene::SurfacePatch& patch);
+  Candidates candidates(const scene::SurfacePoint& point) const;
+  Index among(const Candidates& candidates, const scene::SurfacePoint& point) const;
+  Index nearest_among(const Candidates& candidates, const scene::SurfacePoint& point) const;
 
   mesh::ElementMesh mesh_;
   std::vector<Outline> outlines_;
-  std::vector<geometry::BoxGrid> grids_;  ///< of the mesh's parts
-  std::vector<std::int32_t> part_;        ///< by surface and side; -1: it has none
+  std::vector<Part> parts_;
+  std::vector<std::int32_t> part_;  ///< by surface and side; -1: it has none
 };
 
 }  // namespace interflect::fem

@@ -290,8 +290,6 @@ TEST(Validate, pictures_are_numbered_whatever_cameras_are_called) {
     EXPECT_EQ(read_file(folder / "out" / file).substr(0, 4), "\x89PNG") << file;
 }
 
-// Jacobi's error falls by the reflectance a step: after the 10 000 that there are at most, 0.998^10000 = 2e-9 of it is
-// left.
 // By rays alone: no matrix, and every file that there is with one.
 TEST(Solve, is_done_by_rays_alone) {
   const TemporaryFolder folder;
@@ -303,21 +301,23 @@ TEST(Solve, is_done_by_rays_alone) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/solution.vtu"));
   const json summary = json::parse(read_file(folder / "out/summary.json"));
   EXPECT_EQ(summary.at("settings").at("solver"), "regular-stochastic-jacobi");
-  const Outcome again = interflect({"solve", shipped_scene("cornell_box"), "--element-size", "0.2", "--solver",
-                                    "regular-stochastic-jacobi", "--noise", "3%", "--threads", "3", "-o",
-                                    folder / "again"});
+  const Outcome again =
+      interflect({"solve", shipped_scene("cornell_box"), "--element-size", "0.2", "--solver",
+                  "regular-stochastic-jacobi", "--noise", "3%", "--threads", "3", "-o", folder / "again"});
   EXPECT_EQ(read_file(folder / "out/surfaces.csv"), read_file(folder / "again/surfaces.csv"));
   const Outcome refused = interflect(
       {"solve", shipped_scene("cornell_box"), "--solver", "stochastic-jacobi", "--order", "1", "-o", folder / "no"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_TRUE(contains(refused.err, "polynomials of order 1")) << refused.err;
   const Outcome stopped =
-      interflect({"solve", shipped_scene("office"), "--solver", "shooting-collision", "--noise", "0.01%", "--max-time",
-                  "1s", "--no-pictures", "-o", folder / "stopped"});
+      interflect({"solve", shipped_scene("cornell_box"), "--element-size", "0.2", "--solver", "shooting-collision",
+                  "--noise", "0.001%", "--max-time", "3s", "--no-pictures", "-o", folder / "stopped"});
   EXPECT_TRUE(contains(stopped.out, "out of time") || contains(stopped.out, "asked to stop")) << stopped.out;
   EXPECT_TRUE(std::filesystem::exists(folder / "stopped/solution.vtu"));
 }
 
+// Jacobi's error falls by the reflectance a step: after the 10 000 that there are at most, 0.998^10000 = 2e-9 of it is
+// left.
 TEST(Validate, a_solver_that_has_not_converged_is_a_reason) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("white.json", R"({ "format": "interflect/scene/1", "units": "m",

@@ -63,6 +63,20 @@ TEST(Random, jumping_reaches_the_same_numbers_as_drawing) {
   EXPECT_EQ(drawn.next(), jumped.next());
 }
 
+// Any number of samples, of dimensions, and indices past 2^32, which are carried into the counter's next word.
+TEST(Random, numbers_of_many_samples_are_those_of_each) {
+  for (const std::size_t dimensions : {1u, 2u, 5u, 8u})
+    for (const std::size_t samples : {0u, 1u, 31u, 32u, 100u}) {
+      const std::uint64_t first = 0xFFFFFFFFull - 40;
+      std::vector<double> u(samples * dimensions);
+      random_numbers(9, 3, first, dimensions, u);
+      for (std::size_t k = 0; k < samples; ++k) {
+        RandomNumbers one(9, 3, first + k);
+        for (std::size_t d = 0; d < dimensions; ++d) ASSERT_EQ(u[k * dimensions + d], one.next()) << k << ' ' << d;
+      }
+    }
+}
+
 TEST(Random, purposes_have_seeds_of_their_own) {
   EXPECT_NE(derived_seed(1, "visibility"), derived_seed(1, "pixels"));
   EXPECT_NE(derived_seed(1, "visibility"), derived_seed(2, "visibility"));

@@ -48,6 +48,18 @@ TEST_P(EverySequence, has_points_that_are_uniform_by_themselves) {
   EXPECT_NEAR(square.mean(), .25, 4 * square.standard_error());
 }
 
+TEST_P(EverySequence, has_the_same_points_one_by_one_and_many_at_once) {
+  const auto sequence = make_sequence(GetParam(), 8);
+  for (const std::size_t dimensions : {1u, 5u, 9u}) {
+    std::vector<double> many(70 * dimensions), one(dimensions);
+    sequence->points(4090, dimensions, many);  // across a block of the stratified one
+    for (std::size_t k = 0; k < 70; ++k) {
+      sequence->point(4090 + k, one);
+      for (std::size_t d = 0; d < dimensions; ++d) ASSERT_EQ(many[k * dimensions + d], one[d]) << k << ' ' << d;
+    }
+  }
+}
+
 TEST_P(EverySequence, repeats) {
   const auto sequence = make_sequence(GetParam(), 8), again = make_sequence(GetParam(), 8);
   for (std::uint64_t k = 0; k < 100; ++k) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesh/uniform.h"
 #include "raycast/ray_caster.h"
 #include "tests/support/shapes.h"
@@ -41,6 +43,31 @@ TEST(ElementLocator, finds_what_the_mesh_locates_wherever_a_ray_hits) {
             << name << i;
       }
     }
+  }
+}
+
+// The same answers many at once, also where there is no point, or no element.
+TEST(ElementLocator, finds_the_same_one_by_one_and_many_at_once) {
+  for (const auto& placing : interflect::test::placings) {
+    const scene::Scene scene = star_and_sphere(placing);
+    const mesh::ElementMesh mesh = mesh::uniform(scene, 0.1 * placing.scale);
+    const ElementLocator locate(mesh.patches());
+    const auto caster = raycast::make_ray_caster("embree", scene);
+    std::vector<std::optional<scene::SurfacePoint>> hits(1000);
+    for (std::uint64_t i = 0; i < hits.size(); ++i) {
+      core::RandomNumbers numbers(8, 0, i);
+      if (i % 10 != 0)
+        hits[i] = caster->closest(
+            {placing(Vec3(0.3, 0.1 * numbers.next(), 0.3)), interflect::test::cosine_about(Vec3::UnitX(), numbers)});
+      if (i % 15 == 1 && hits[i]) hits[i]->side = scene::Side::back;
+    }
+    std::vector<Index> elements(hits.size());
+    locate(hits, elements);
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+      const Index one = hits[k] ? locate(*hits[k]) : ElementLocator::none;
+      ASSERT_EQ(elements[k], one) << k;
+    }
+    EXPECT_GT(std::ranges::count_if(elements, [](Index e) { return e != ElementLocator::none; }), 500);
   }
 }
 

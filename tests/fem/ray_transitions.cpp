@@ -71,6 +71,25 @@ TEST(RayTransitions, have_form_factors_for_probabilities) {
 }
 
 // Random walks by rays arrive where the matrix does, within what they state, and its own tolerance of 1e-3.
+TEST(RayTransitions, lead_to_the_same_one_by_one_and_many_at_once) {
+  const Furnished room;
+  const RayTransitions transitions(room.patches, *room.rays);
+  const auto sequence = core::make_sequence("independent", 10);
+  constexpr std::size_t n = 200;
+  std::vector<double> u(4 * n);
+  sequence->points(0, 4, u);
+  std::vector<Index> from(n), arrived(n);
+  for (std::size_t k = 0; k < n; ++k) from[k] = static_cast<Index>(k % room.patches.size());
+  transitions.from_elements(from, u, arrived);
+  std::size_t nowhere = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto one = transitions.from_element(from[k], std::span(u).subspan(4 * k, 4));
+    EXPECT_EQ(arrived[k], one.value_or(solvers::TransitionSampler::nowhere)) << k;
+    nowhere += !one;
+  }
+  EXPECT_GT(nowhere, 5u);
+}
+
 TEST(RayTransitions, lead_random_walks_to_the_solution) {
   const Furnished room;
   const RayTransitions transitions(room.patches, *room.rays);

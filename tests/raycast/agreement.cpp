@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "raycast/ray_caster.h"
 #include "tests/support/shapes.h"
 
@@ -85,6 +86,31 @@ TEST(RayCasters, agree_on_random_triangles_but_for_rays_within_1e_minus_5_of_an_
     }
     EXPECT_GT(hits, 3000);
     EXPECT_LT(different, 20);  // the test of the exceptions shall not swallow a fault
+  }
+}
+
+// In any number, through a soup that some rays leave.
+TEST(RayCasters, find_the_same_one_by_one_and_many_at_once) {
+  const scene::Scene scene = soup(200, 4, {});
+  for (const std::string& name : ray_caster_names()) {
+    const auto caster = make_ray_caster(name, scene);
+    std::vector<Ray> rays;
+    for (std::uint64_t i = 0; i < 150; ++i) rays.push_back(random_ray(i, {}));
+    std::vector<std::optional<scene::SurfacePoint>> hits(rays.size());
+    caster->closest_each(rays, hits);
+    std::size_t met = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const auto hit = caster->closest(rays[k]);
+      ASSERT_EQ(hits[k].has_value(), hit.has_value()) << name << k;
+      if (!hit) continue;
+      ++met;
+      EXPECT_EQ(hits[k]->facet, hit->facet);
+      EXPECT_EQ(hits[k]->side, hit->side);
+      EXPECT_EQ(hits[k]->position, hit->position);
+    }
+    EXPECT_GT(met, 20u);
+    EXPECT_LT(met, rays.size());
+    EXPECT_THROW(caster->closest_each(rays, std::span(hits).first(3)), core::PreconditionError);
   }
 }
 
