@@ -46,6 +46,7 @@ void RayTransitions::from_elements(std::span<const Index> from, std::span<const 
   std::array<std::optional<scene::SurfacePoint>, at_once> hits;
   for (std::size_t first = 0; first < from.size(); first += at_once) {
     const std::size_t n = std::min(at_once, from.size() - first);
+    for (std::size_t k = 0; k < n; ++k) __builtin_prefetch(&senders_[static_cast<std::size_t>(from[first + k])]);
     for (std::size_t k = 0; k < n; ++k) {
       const auto numbers = u.subspan(4 * (first + k), 4);
       rays[k] = ray_from(point_on(from[first + k], numbers), numbers.subspan(2));

@@ -86,15 +86,14 @@ class Pilot {
     constexpr std::uint64_t walks_each = 8;
     const ElementWalks walks(system_, ElementWalks::Score::collision);
     returns_ = Eigen::VectorXd::Zero(system_.e.rows());
-    for (Index i = 0; i < system_.e.rows(); ++i) {
-      const double rho = system_.R.reflectance().row(i).mean();
-      for (std::uint64_t k = 0; k < walks_each; ++k) {
-        WalkNumbers numbers(*sequence_, k, {seed, static_cast<std::uint32_t>(k), static_cast<std::uint64_t>(i)}, 0);
-        draws_ += walks.gather(i, numbers, [&](const Eigen::RowVectorXd&, Index hit) {
-          if (hit == i) returns_(i) += rho / static_cast<double>(walks_each);
-        });
-      }
-    }
+    const auto scored = [&](Index i, const ElementWalks::ConstRow&, Index hit) {
+      if (hit == i) returns_(i) += system_.R.reflectance().row(i).mean() / static_cast<double>(walks_each);
+    };
+    WalkBatch batch([&](std::span<const WalkStart> starts) { return walks.gather(starts, scored); });
+    for (Index i = 0; i < system_.e.rows(); ++i)
+      for (std::uint64_t k = 0; k < walks_each; ++k)
+        batch.add({i, {*sequence_, k, {seed, static_cast<std::uint32_t>(k), static_cast<std::uint64_t>(i)}, 0}});
+    draws_ += batch.finish();
   }
 
   /// b² less, but no less than a hundredth is left: what is estimated may be off.
@@ -120,17 +119,18 @@ class Combined {
 
   template <class Numbers>
   std::uint64_t add(std::uint64_t begin, std::uint64_t end, const Numbers& numbers, const RoundStop& stop) {
-    std::uint64_t draws = 0;
+    WalkBatch shooting([&](std::span<const WalkStart> starts) { return walks_.shoot(starts, shot_); });
     for (std::uint64_t k = begin; k < end; ++k) {
       stop.here(k);
-      draws += walks_.shoot(numbers(k, 0), shot_);
+      shooting.add({0, numbers(k, 0)});
     }
+    WalkBatch gathering([&](std::span<const WalkStart> starts) { return walks_.gather(starts, gathered_); });
     for (Index i = 0; i < shot_.rows(); ++i)
       for (std::uint64_t k = gathers(i, begin); k < gathers(i, end); ++k) {
         stop.here(k);
-        draws += walks_.gather(i, numbers(k, i + 1), gathered_);
+        gathering.add({i, numbers(k, i + 1)});
       }
-    return draws;
+    return shooting.finish() + gathering.finish();
   }
 
   /// b by all of them.

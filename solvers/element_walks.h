@@ -1,59 +1,57 @@
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <span>
 #include <vector>
 
-#include "core/random.h"
-#include "core/sample_sequence.h"
 #include "solvers/power_draw.h"
 #include "solvers/solver.h"
 #include "solvers/transition_sampler.h"
+#include "solvers/walk_numbers.h"
 
 namespace interflect::solvers {
 
-/// The numbers of a walk: the first ones by a sequence, which may be evenly spread, all others independent.
-class WalkNumbers {
- public:
-  WalkNumbers(const core::SampleSequence& sequence, std::uint64_t index, core::RandomNumbers others, std::size_t first)
-      : others_(others), numbers_(first) {
-    sequence.point(index, numbers_);
-  }
-  /// Valid until the next call.
-  std::span<const double> next(std::size_t count);
-
- private:
-  core::RandomNumbers others_;
-  std::vector<double> numbers_;
-  std::size_t used_ = 0;
+/// A walk that is to be.
+struct WalkStart {
+  Index unknown;  ///< where it starts, if it gathers; those that shoot draw that
+  WalkNumbers numbers;
 };
 
-/// Those of the walks of all replications.
-class WalkSequences {
+/// Collects walks and hands them over some hundreds at a time, as they are fastest.
+class WalkBatch {
  public:
-  /// @param first  how many numbers of a walk are by the sequence
-  WalkSequences(const SolverSettings& settings, std::uint64_t seed, std::size_t first);
-  /// Of walk k of a replication, or of the walk k that starts at an unknown.  Beyond 2^20 walks an unknown some of two
-  /// unknowns have the same numbers: each has the right mean all the same.
-  WalkNumbers operator()(int replication, std::uint64_t k, Index unknown = 0) const;
+  /// @param walk  what they do.  @return  draws
+  explicit WalkBatch(std::function<std::uint64_t(std::span<const WalkStart>)> walk) : walk_(std::move(walk)) {}
+  void add(WalkStart start) {
+    starts_.push_back(start);
+    if (starts_.size() == at_once) finish();
+  }
+  /// The rest as well.  @return  draws of all so far
+  std::uint64_t finish() {
+    if (!starts_.empty()) draws_ += walk_(starts_);
+    starts_.clear();
+    return draws_;
+  }
 
  private:
-  std::uint64_t seed_;
-  std::size_t first_;
-  std::vector<std::unique_ptr<core::SampleSequence>> sequences_;
+  static constexpr std::size_t at_once = 256;
+  std::function<std::uint64_t(std::span<const WalkStart>)> walk_;
+  std::vector<WalkStart> starts_;
+  std::uint64_t draws_ = 0;
 };
 
 /// Walks from element to element, by F_ij, that go on from j with the probability rho_j: what they score is in
 /// random_walk.h.  With several columns walks are shared: they go on with the probability sum T rho / sum T of what they
-/// carry, T a column, which is changed so that each has the right mean; of one column that is rho.
+/// carry, T a column, which is changed so that each has the right mean; of one column that is rho.  Walks given together
+/// take each step together, so that it is drawn for all at once.
 class ElementWalks {
-  /// Of draws that lead from element to element.
-  auto between_elements(WalkNumbers& numbers) const {
-    return [this, &numbers](Index from) { return system_.walks->from_element(from, numbers.next(draw_)); };
-  }
-
  public:
   enum class Score { absorption, survival, collision };
+  using Row = Eigen::RowVectorXd;
+  using ConstRow = Eigen::Ref<const Row>;
+  /// Told what a walk that started at an unknown scores, and where.
+  using Scored = std::function<void(Index start, const ConstRow& score, Index at)>;
+
   /// The system outlives this.
   ElementWalks(const System& system, Score score);
 
@@ -66,51 +64,42 @@ class ElementWalks {
   /// How many numbers are by a sequence: birth, a step, and whether to go on.
   std::size_t first_numbers() const { return 2 + draw_; }
 
-  /// What a walk says of every unknown's radiosity beyond e is added to its row.  @return  draws
-  std::uint64_t shoot(WalkNumbers numbers, ColumnMatrix& sum) const;
-  /// The same of a walk that goes on from the very point where it arrived, which walks must have.
-  std::uint64_t shoot_on(WalkNumbers numbers, ColumnMatrix& sum) const;
-  /// From i, of i's.
-  std::uint64_t gather(Index i, WalkNumbers numbers, ColumnMatrix& sum) const {
-    return gather(i, numbers, [&](const Eigen::RowVectorXd& scored, Index) { sum.row(i) += scored; });
-  }
-  /// From i; at(scores so far, an unknown that scores), after each.
-  template <class At>
-  std::uint64_t gather(Index i, WalkNumbers& numbers, const At& at) const {
-    return walk(i, rho(i), numbers, between_elements(numbers), [&](Index s, const Row& carried, double score) {
-      at(Row(score * carried.cwiseProduct(system_.e.row(s))), s);
-    });
-  }
+  /// What walks say of every unknown's radiosity beyond e is added to its row.  @return  draws
+  std::uint64_t shoot(std::span<const WalkStart> starts, ColumnMatrix& sum) const;
+  /// The same of walks that go on from the very point where they arrived, which the system's must have.
+  std::uint64_t shoot_on(std::span<const WalkStart> starts, ColumnMatrix& sum) const;
+  /// From where they start, and of that.
+  std::uint64_t gather(std::span<const WalkStart> starts, ColumnMatrix& sum) const;
+  std::uint64_t gather(std::span<const WalkStart> starts, const Scored& scored) const;
 
  private:
-  using Row = Eigen::RowVectorXd;
+  /// Walks under way.
+  struct Wave {
+    explicit Wave(std::span<const WalkStart> starts, Index columns);
+    std::size_t size() const { return at.size(); }
+    void keep(std::size_t from, std::size_t to);  ///< but for what it carries
+    void shrink(std::size_t size);
+
+    std::vector<Index> start, at;
+    std::vector<WalkNumbers> numbers;
+    ColumnMatrix carried;                        ///< rows beyond size() are of walks that ended
+    std::vector<PointTransitions::Point> point;  ///< of those that go on from there
+  };
+
   double area(Index a) const { return system_.K.gram()[static_cast<std::size_t>(a)]; }
-  Row rho(Index a) const { return system_.R.reflectance().row(a); }
-  double going_on(Index at, const Row& carried, const Row& reflected) const;
+  auto rho(Index a) const { return system_.R.reflectance().row(a); }
+  double going_on(Index at, const ConstRow& carried, const ConstRow& reflected) const;
 
-  template <class Next>
-  std::uint64_t shoot_by(const Next& next, WalkNumbers& numbers, ColumnMatrix& sum) const;
+  Wave births(std::span<const WalkStart> starts) const;
+  void step_between_elements(Wave& wave, std::span<Index> arrived) const;
+  void step_between_points(Wave& wave, std::span<Index> arrived) const;
 
-  /// From an unknown, with what it carries, next(unknown) being where a draw leads; hit(unknown, carried, score) where it scores, score having the mean 1.
-  template <class Next, class Hit>
-  std::uint64_t walk(Index from, Row carried, WalkNumbers& numbers, const Next& next, const Hit& hit) const {
-    std::uint64_t draws = 0;
-    for (Index at = from;;) {
-      const std::optional<Index> arrived = next(at);
-      ++draws;
-      if (!arrived) return draws;
-      at = *arrived;
-      const Row reflected = rho(at).cwiseProduct(carried);
-      const double on = going_on(at, carried, reflected);
-      const bool survives = numbers.next(1)[0] < on;
-      if (score_ == Score::collision)
-        hit(at, carried, 1);
-      else if (survives == (score_ == Score::survival))
-        hit(at, carried, 1 / (survives ? on : 1 - on));
-      if (!survives) return draws;
-      carried = reflected / on;
-    }
-  }
+  /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, score) is told where one
+  /// scores, score having the mean 1.
+  template <class Step, class Hit>
+  std::uint64_t walk(Wave wave, const Step& step, const Hit& hit) const;
+  template <class Step>
+  std::uint64_t shoot_by(const Step& step, Wave wave, ColumnMatrix& sum) const;
 
   const System& system_;
   Score score_;

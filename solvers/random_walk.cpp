@@ -32,26 +32,26 @@ SolverReport RandomWalk::advance(const System& system, SolverState& state, const
 
   const ElementWalks walks(system, score_);
   const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), walks.first_numbers());
-  const auto one = [&](int r, std::uint64_t k, Index from, ColumnMatrix& sum) {
+  const auto some = [&](std::span<const WalkStart> starts, ColumnMatrix& sum) {
     switch (way_) {
       case Way::shooting:
-        return walks.shoot(numbers(r, k), sum);
+        return walks.shoot(starts, sum);
       case Way::continuous:
-        return walks.shoot_on(numbers(r, k), sum);
+        return walks.shoot_on(starts, sum);
       case Way::gathering:
         break;
     }
-    return walks.gather(from, numbers(r, k, from), sum);
+    return walks.gather(starts, sum);
   };
   const Index starts = way_ == Way::gathering ? system.e.rows() : 1;
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
-    std::uint64_t draws = 0;
+    WalkBatch batch([&](std::span<const WalkStart> of_batch) { return some(of_batch, sum); });
     for (std::uint64_t k = begin; k < end; ++k)
       for (Index i = 0; i < starts; ++i) {
         stop.here(k + static_cast<std::uint64_t>(i));
-        draws += one(r, k, i, sum);
+        batch.add({i, numbers(r, k, i)});
       }
-    return draws;
+    return batch.finish();
   };
   const SampledRounds rounds{way_ == Way::gathering ? 4u : 256u, static_cast<std::uint64_t>(starts), add};
   return sample_in_rounds(system, state, rule, settings_, rounds, run);

@@ -31,12 +31,12 @@ SolverReport TargetWalk::shoot(const System& system, SolverState& state, const S
   ElementWalks walks(system, ElementWalks::Score::collision);
   const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), walks.first_numbers());
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
-    std::uint64_t draws = 0;
+    WalkBatch batch([&](std::span<const WalkStart> starts) { return walks.shoot(starts, sum); });
     for (std::uint64_t k = begin; k < end; ++k) {
       stop.here(k);
-      draws += walks.shoot(numbers(r, k), sum);
+      batch.add({0, numbers(r, k)});
     }
-    return draws;
+    return batch.finish();
   };
   const auto prepare = [&](std::uint64_t begin, std::uint64_t end) {
     Potential potential(system, settings_, run,
@@ -56,16 +56,17 @@ SolverReport TargetWalk::gather(const System& system, SolverState& state, const 
   const PowerDraw starts(t.asDiagonal() * system.R.reflectance());
   const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), 1 + walks.first_numbers());
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
-    std::uint64_t draws = 0;
+    const auto scored = [&](Index i, const ElementWalks::ConstRow& score, Index) {
+      sum.row(i) += score / starts.probability(i);
+    };
+    WalkBatch batch([&](std::span<const WalkStart> of_batch) { return walks.gather(of_batch, scored); });
     for (std::uint64_t k = begin; k < end && !starts.nothing(); ++k) {
       stop.here(k);
       WalkNumbers of_walk = numbers(r, k);
-      const auto [i, probability] = starts(of_walk.next(1)[0]);
-      draws += walks.gather(i, of_walk, [&sum, i = i, p = probability](const Eigen::RowVectorXd& scored, Index) {
-        sum.row(i) += scored / p;
-      });
+      const Index i = starts(of_walk.next(1)[0]).unknown;
+      batch.add({i, of_walk});
     }
-    return draws;
+    return batch.finish();
   };
   SampledRounds rounds{256, 1, add};
   for (Index i = 0; i < system.e.rows(); ++i)
