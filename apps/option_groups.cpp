@@ -136,6 +136,12 @@ void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
       ->check(within(1e-15, 0.1))
       ->capture_default_str();
   command
+      .add_option("--steps", s.stopping.max_iterations,
+                  "Iterations, or rounds of samples, after which it stops in any case: as many as the record of a run "
+                  "says that was stopped give its result again")
+      ->check(CLI::Range(1, 1 << 30))
+      ->capture_default_str();
+  command
       .add_option("--unshot", s.stopping.unshot,
                   "Unshot light, over all that is emitted, at which southwell and progressive stop")
       ->check(within(0.0, 1.0))

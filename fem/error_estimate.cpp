@@ -255,16 +255,19 @@ static Spectrum variation_without_noise(const RadiositySolution& s, std::size_t 
   return (variation * variation - noise).map([](double square) { return std::sqrt(std::max(0.0, square)); });
 }
 
-void estimate_errors_alone(RadiositySolution& s, std::span<const Spectrum> bound, const Spectrum& missing) {
+void estimate_errors_alone(RadiositySolution& s, std::span<const Spectrum> bound, const Spectrum& missing,
+                           const Arriving& arriving) {
   std::vector<Spectrum> variation;
   for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
     variation.push_back(variation_without_noise(s, i));
     s.field_error.push_back(s.reflectance[i] * variation[i]);
   }
   const Spectrum of_all = area_mean(s.mesh, s.field_error), later = later_bounces(s);
+  const std::vector<Spectrum> seen = arriving ? arriving(s.field_error) : std::vector<Spectrum>();
   for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
-    const Spectrum in_all_bounces = of_all + (bound.empty() ? Spectrum::zero() : bound[i]);
-    s.irradiance_error.push_back(missing + variation[i] + in_all_bounces + later * in_all_bounces);
+    const Spectrum of_factors = bound.empty() ? Spectrum::zero() : bound[i];
+    const Spectrum first = of_factors + (seen.empty() ? of_all : max(of_all, seen[i]));
+    s.irradiance_error.push_back(missing + variation[i] + first + later * (of_all + of_factors));
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "fem/environment_column.h"
 #include "fem/operator/symmetric_operator.h"
 #include "fem/polynomial_radiosity.h"
@@ -60,11 +62,15 @@ struct ErrorSources {
 void estimate_errors(RadiositySolution& solution, const ErrorSources& from, int channels, Run& run);
 
 /// The same where no matrix tells what halving the elements would change, of constants whose irradiance_noise is there:
-/// what irradiance varies by inside the element, and radiosity in the mean of all elements, and what form factors lack, over
-/// 1 - mean rho for all bounces; and what is missing anyhow.  Of siblings' differences noise is subtracted.
+/// what irradiance varies by inside the element; what radiosity varies by in those that it sees, if that can be told, and in
+/// the mean of all; what form factors lack; all but the first for all bounces, over 1 - mean rho; and what is missing anyhow.
+/// Of siblings' differences noise is subtracted.
 /// @param bound  of form factors, on one bounce; empty: none
 /// @param missing  on irradiance, in all elements
-void estimate_errors_alone(RadiositySolution& solution, std::span<const Spectrum> bound, const Spectrum& missing);
+/// @param arriving  what of a field arrives at elements, sum_j F_ij v_j; none: the mean of all stands for it
+using Arriving = std::function<std::vector<Spectrum>(std::span<const Spectrum> sent)>;
+void estimate_errors_alone(RadiositySolution& solution, std::span<const Spectrum> bound, const Spectrum& missing,
+                           const Arriving& arriving = {});
 
 /// Of four elements that are the quarters of one, for each of them.
 std::vector<Spectrum> means_of_fours(const mesh::ElementMesh& mesh, std::span<const Spectrum> values);

@@ -60,16 +60,18 @@ RowSums summary_of(std::span<const double> row_sums, std::span<const double> are
   return rows;
 }
 
-/// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
+/// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.  A
+/// solve that is stopped ends with what it has, and nothing is asked of larger elements then.
 /// @return  whether both solves converged
 bool solve_both(RadiositySolution& s, const scene::Scene& scene, const SymmetricOperator& K,
                 const RadiositySettings& settings, Run& run) {
   const int channels = scene.channel_count();
   const solvers::ColumnMatrix e = to_columns(s.exitance, channels), rho = to_columns(s.reflectance, channels);
+  Run rest = run.to_the_end();
   solvers::ColumnMatrix B, H(e.rows(), e.cols());
   if (settings.projection == Projection::galerkin) {
     B = solve_system(K, e, rho, settings, run, s.solver);
-    K.apply(B, H, run);
+    K.apply(B, H, rest);
     divide_by(H, K.gram());
   } else {
     ElementFields fields =
@@ -78,13 +80,16 @@ bool solve_both(RadiositySolution& s, const scene::Scene& scene, const Symmetric
     H = std::move(fields.irradiance);
     s.solver = std::move(fields.report);
   }
-  solvers::SolverReport of_coarse;
-  const auto coarse = aggregated(K, run);
-  s.coarse_radiosity =
-      to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, of_coarse)));
-  run.throw_if_stopped("solve");  // what there is has no error yet, and is worth nothing without one
   s.radiosity = to_spectra(B);
   s.irradiance = to_spectra(H);
+  if (run.stop.stop_requested()) {
+    s.coarse_radiosity = means_of_fours(s.mesh, s.radiosity);
+    return false;
+  }
+  solvers::SolverReport of_coarse;
+  const auto coarse = aggregated(K, rest);
+  s.coarse_radiosity =
+      to_spectra(to_children(solve_system(*coarse, of_parents(e), of_parents(rho), settings, run, of_coarse)));
   return s.solver.converged() && of_coarse.converged();
 }
 
@@ -260,7 +265,8 @@ RadiositySolution solution_of(const std::string& group, const Equations& equatio
   RadiositySolution s = dark;
   leave_group_alone(s.exitance, group, equations.scene, s.mesh.patches());
   const Found found = solve_with(equations, s, run);
-  estimate_with(equations, found, s, run);
+  Run rest = run.to_the_end();
+  estimate_with(equations, found, s, rest);
   return s;
 }
 
@@ -300,13 +306,14 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   const Equations equations{scene,           settings,       from,
                             elements.degree, row_sum_before, environment ? &*environment : nullptr};
   const Found found = timed("solve", [&] { return solve_with(equations, s, run); });
-  timed("error estimate", [&] { estimate_with(equations, found, s, run); });
+  Run rest = run.to_the_end();  // what there is is written, however soon the solve was stopped
+  timed("error estimate", [&] { estimate_with(equations, found, s, rest); });
   if (settings.light_groups)
     timed("light groups", [&] {
       for (const std::string& group : measure::light_groups(scene))
         s.of_groups.push_back(solution_of(group, equations, dark, run));
     });
-  timed("energy balance", [&] { balance_energy(s, scene, *rays, repair, run); });
+  timed("energy balance", [&] { balance_energy(s, scene, *rays, repair, rest); });
   s.stages = std::move(stages);
   return s;
 }

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "fem/arriving_by_rays.h"
 #include "fem/columns.h"
 #include "fem/element_materials.h"
 #include "fem/energy.h"
@@ -77,7 +78,8 @@ class Sampling {
     for (std::size_t i = 0; i < exitance.size(); ++i)
       s.radiosity.push_back(exitance[i] + s.reflectance[i] * s.irradiance[i]);
     set_noise(s, state);
-    estimate_errors_alone(s, {}, Spectrum::zero());
+    estimate_errors_alone(s, {}, Spectrum::zero(),
+                          [&](std::span<const Spectrum> sent) { return arriving_by_rays(walks_, sent, run); });
     s.coarse_radiosity = means_of_fours(mesh_, s.radiosity);
     s.pairs.rays = static_cast<std::uint64_t>(s.solver.rows());
     s.bytes = 8.0 * static_cast<double>(e.size()) * settings_.solver_settings.replications;

@@ -36,20 +36,19 @@ template <int C, int R, bool mirror>
     // The tile behind this one, line by line, into the second-level cache: K is read once and from memory.
     __builtin_prefetch(K + tile_entries + R * j, 0, 2);
     if constexpr (R == 4) __builtin_prefetch(K + tile_entries + R * j + 8, 0, 2);
-    Pack xj[C], yj[C];
+    Pack k[R];
+    each<R>([&](auto r) { load(k[r], K + r * tile_size + j); });
+    // Column after column: two registers for what is read once, all others for what is used again.
     each<C>([&](auto c) {
-      load(xj[c], x + c * tile_size + j);
-      if constexpr (mirror) load(yj[c], y + c * tile_size + j);
-    });
-    each<R>([&](auto r) {
-      Pack k;
-      load(k, K + r * tile_size + j);
-      each<C>([&](auto c) {
-        s[r][c] += k * xj[c];
-        if constexpr (mirror) yj[c] += k * xi[r][c];
+      Pack xj, yj;
+      load(xj, x + c * tile_size + j);
+      if constexpr (mirror) load(yj, y + c * tile_size + j);
+      each<R>([&](auto r) {
+        s[r][c] += k[r] * xj;
+        if constexpr (mirror) yj += k[r] * xi[r][c];
       });
+      if constexpr (mirror) store(y + c * tile_size + j, yj);
     });
-    if constexpr (mirror) each<C>([&](auto c) { store(y + c * tile_size + j, yj[c]); });
   }
   each<R>([&](auto r) { each<C>([&](auto c) { store(lanes + (c * tile_size + r) * tile_lanes, s[r][c]); }); });
 }

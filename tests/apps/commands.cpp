@@ -316,6 +316,38 @@ TEST(Solve, is_done_by_rays_alone) {
   EXPECT_TRUE(std::filesystem::exists(folder / "stopped/solution.vtu"));
 }
 
+// What time cut off is had again by the steps that its record says: of iterations, and of rounds of samples.
+TEST(Solve, of_a_run_that_was_stopped_can_be_had_again) {
+  const TemporaryFolder folder;
+  const std::string white = folder.write("white.json", R"({ "format": "interflect/scene/1", "units": "m",
+  "materials": { "white": { "type": "diffuse", "reflectance": 0.9999, "exitance": 0.0001 } },
+  "geometry": [ { "box": { "min": [0,0,0], "max": [1,1,1] }, "facing": "inward", "material": "white" } ] })");
+  const auto solve = [&](const std::string& scene, const std::string& solver, const std::string& out,
+                         const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"solve",          scene,      "--element-size", "0.1",
+                                       "--solver",       solver,     "--noise",        "0.001%",
+                                       "--form-factors", "analytic", "--no-pictures",  "--solver-tolerance",
+                                       "1e-15",          "-o",       folder / out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return interflect(arguments);
+  };
+  for (const auto& [solver, scene] :
+       {std::pair<std::string, std::string>{"jacobi", white}, {"shooting-collision", shipped_scene("cornell_box")}}) {
+    const Outcome stopped = solve(scene, solver, "stopped", {"--steps", "100000000", "--max-time", "3s"});
+    ASSERT_TRUE(contains(stopped.out, "asked to stop")) << stopped.out << stopped.err;
+    const json first = json::parse(read_file(folder / "stopped/summary.json")).at("solver");
+    ASSERT_GT(first.at("iterations"), 0);
+    solve(scene, solver, "again", {"--steps", std::to_string(first.at("iterations").get<int>())});
+    const json again = json::parse(read_file(folder / "again/summary.json")).at("solver");
+    EXPECT_EQ(again.at("residual_history"), first.at("residual_history")) << solver;
+    const auto before = read_csv(folder / "stopped/surfaces.csv"), after = read_csv(folder / "again/surfaces.csv");
+    ASSERT_EQ(before.size(), after.size());
+    const auto radiosity = 2u, irradiance = before[0].size() > 10 ? 5u : 3u;
+    for (std::size_t k = 0; k < before.size(); ++k)
+      for (const std::size_t column : {radiosity, irradiance}) EXPECT_EQ(after[k][column], before[k][column]) << solver;
+  }
+}
+
 // Jacobi's error falls by the reflectance a step: after the 10 000 that there are at most, 0.998^10000 = 2e-9 of it is
 // left.
 TEST(Validate, a_solver_that_has_not_converged_is_a_reason) {

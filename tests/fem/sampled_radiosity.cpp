@@ -108,9 +108,9 @@ TEST(SampledRadiosity, is_the_same_at_any_scale_and_for_any_threads) {
   }
 }
 
-// Errors of discretisation are estimated from what irradiance varies by, noise subtracted, where noise is little: 94 % of elements
-// are within. The others are the underside of the box, which sees nothing but the shadow that elements of the floor are too
-// large for, and is off by 1.2 to 1.6 times what is stated: the mean of all elements stands for what neighbours vary by.
+// Errors of discretisation are estimated from what irradiance varies by, noise subtracted, where noise is little, inside them and in
+// those that they see: 95 % of elements are within. The others are the underside of the box, which sees nothing but the edge of
+// a shadow that elements of the floor are too large for, and is off by 1.2 to 1.6 times what is stated.
 TEST(SampledRadiosity, states_errors_that_hold) {
   const scene::Scene scene = furnished();
   core::LocalRun run(4, 2);
@@ -127,7 +127,7 @@ TEST(SampledRadiosity, states_errors_that_hold) {
     const double off = std::abs(found.irradiance[i][0] - true_means[i].value[0]);
     if (off <= found.irradiance_error[i][0] + 2 * found.irradiance_noise[i][0]) ++held;
   }
-  EXPECT_GE(held, .94 * static_cast<double>(found.irradiance.size()));
+  EXPECT_GE(held, .95 * static_cast<double>(found.irradiance.size()));
 }
 
 TEST(SampledRadiosity, has_light_groups) {
