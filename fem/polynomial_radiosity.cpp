@@ -24,10 +24,10 @@ ElementFields solved(const RadiositySolution& s, const SymmetricOperator& K, std
   solvers::SolverState state{e};
   ElementFields fields;
   fields.report = solver_of(settings)->advance({K, R, e}, state, settings.stopping, run);
-  run.throw_if_stopped("solve");
+  Run rest = run.to_the_end();  // a solve that is stopped ends with what it has
   fields.radiosity = std::move(state.x);
   fields.irradiance.resize(e.rows(), e.cols());
-  K.apply(fields.radiosity, fields.irradiance, run);
+  K.apply(fields.radiosity, fields.irradiance, rest);
   divide_by(fields.irradiance, K.gram());
   for (Index i = 0; i < std::ssize(degree); ++i) {
     const Index active = plane_functions(degree[static_cast<std::size_t>(i)]);

@@ -87,7 +87,7 @@ void ElementLocator::operator()(std::span<const std::optional<scene::SurfacePoin
     const auto some = points.subspan(first, std::min(at_once, points.size() - first));
     for (std::size_t k = 0; k < some.size(); ++k) of[k] = some[k] ? candidates(*some[k]) : Candidates{};
     for (std::size_t k = 0; k < some.size(); ++k)
-      if (!of[k].items.empty()) of[k].part->outlines.prefetch(of[k].items[0]);
+      if (!of[k].items.empty() && of[k].part->outlines.flat()) of[k].part->outlines.prefetch(of[k].items[0]);
     for (std::size_t k = 0; k < some.size(); ++k) elements[first + k] = some[k] ? among(of[k], *some[k]) : none;
   }
 }

@@ -15,8 +15,9 @@ std::vector<scene::SurfacePatch> floor_of_a_star(const test::Placing& place) {
   core::RandomNumbers numbers(5, 0, 0);
   const auto grey = builder.add_material(test::diffuse("grey", 0.5, 0));
   test::add_prism_room(builder, test::random_star(9, numbers), 0.8, grey, place);
+  const mesh::ElementMesh mesh = mesh::uniform(builder.finish(), 0.1 * place.scale);
   std::vector<scene::SurfacePatch> floor;
-  for (const scene::SurfacePatch& patch : mesh::uniform(builder.finish(), 0.1 * place.scale).patches())
+  for (const scene::SurfacePatch& patch : mesh.patches())
     if (patch.surface.value == 0) floor.push_back(patch);
   return floor;
 }
