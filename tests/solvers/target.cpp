@@ -11,14 +11,27 @@
 namespace interflect::solvers {
 namespace {
 
+/// A system that is asked for one number.
+struct Targeted {
+  Targeted(FullOperator of, ColumnMatrix reflectance, ColumnMatrix exitance, std::vector<double> target)
+      : K(std::move(of)), walks(K), rho(std::move(reflectance)), e(std::move(exitance)), R(rho), t(std::move(target)) {}
+  Targeted(const Targeted&) = delete;
+  Targeted& operator=(const Targeted&) = delete;
+  System system() const { return {K, R, e, &walks, t}; }
+
+  FullOperator K;
+  MatrixSampler walks;
+  ColumnMatrix rho, e;
+  Reflection R;
+  std::vector<double> t;
+};
+
 /// Unequal areas, an open room, a target of some of the unknowns; what is exact by elimination.
-struct Asked {
+struct Asked : Targeted {
   static constexpr Index n = 12;
-  Asked() : K(random_operator(n, 31)), walks(K), rho(random_columns(n, 1, .1, .9, 32)), R(rho) {
-    e = random_columns(n, 1, 0, 1, 33);
-    e.topRows(4).setZero();
-    t.assign(n, 0);
-    t[1] = .3, t[2] = 2, t[7] = .1;
+  Asked()
+      : Targeted(random_operator(n, 31), random_columns(n, 1, .1, .9, 32), exitance(),
+                 {0, .3, 2, 0, 0, 0, 0, .1, 0, 0, 0, 0}) {
     const Eigen::Map<const Eigen::VectorXd> G(K.gram().data(), n);
     F = G.cwiseInverse().asDiagonal() * K.matrix();
     P = G.asDiagonal() * e;
@@ -32,13 +45,12 @@ struct Asked {
   }
   /// x = of + R F x.
   ColumnMatrix solved(const ColumnMatrix& of) const { return by_elimination(K, rho, of); }
-  System system() const { return {K, R, e, &walks, t}; }
+  static ColumnMatrix exitance() {
+    ColumnMatrix dark = random_columns(n, 1, 0, 1, 33);
+    dark.topRows(4).setZero();
+    return dark;
+  }
 
-  FullOperator K;
-  MatrixSampler walks;
-  ColumnMatrix rho, e;
-  Reflection R;
-  std::vector<double> t;
   Eigen::MatrixXd F;
   ColumnMatrix P, s, q, moment_of_bounce, moment_of_walk, b;
   double J;  ///< of what is reflected
@@ -153,16 +165,20 @@ TEST(Target, has_an_honest_error) {
 }
 
 /// Two closed rooms of 16 unknowns joined by a small door; a lamp in the first, asked about is a desk in the second.
-struct TwoRooms {
+struct TwoRooms : Targeted {
   static constexpr Index each = 16, n = 2 * each;
-  TwoRooms() : K(matrix(), Eigen::VectorXd::Ones(n)), walks(K), rho(ColumnMatrix::Constant(n, 1, .5)), R(rho) {
-    e = ColumnMatrix::Zero(n, 1);
-    e.topRows(each / 2).setConstant(
-        1);  // half of the first room shines, the dimmer half of it can look through the door
-    e.topRows(2).setConstant(.2);
-    e(n - 5, 0) = .02;  // and a glimmer in the second, which births by power seldom choose
-    t.assign(n, 0);
-    t[n - 1] = 1;
+  TwoRooms() : Targeted({matrix(), Eigen::VectorXd::Ones(n)}, ColumnMatrix::Constant(n, 1, .5), exitance(), desk()) {}
+  static ColumnMatrix exitance() {
+    ColumnMatrix lit = ColumnMatrix::Zero(n, 1);
+    lit.topRows(each / 2).setConstant(1);  // half of the first room shines, and dimly what looks through the door
+    lit.topRows(2).setConstant(.2);
+    lit(n - 5, 0) = .02;  // and a glimmer in the second, which births by power seldom choose
+    return lit;
+  }
+  static std::vector<double> desk() {
+    std::vector<double> last(n);
+    last.back() = 1;
+    return last;
   }
   /// A room is a sphere, but that two of its elements see two of the other instead of part of their own.
   static Eigen::MatrixXd matrix() {
@@ -173,12 +189,6 @@ struct TwoRooms {
       for (Index j = 0; j < 2; ++j) M(i, n - 1 - j) = M(n - 1 - j, i) = .04;
     return M;
   }
-  System system() const { return {K, R, e, &walks, t}; }
-  FullOperator K;
-  MatrixSampler walks;
-  ColumnMatrix rho, e;
-  Reflection R;
-  std::vector<double> t;
 };
 
 // For as many rays in all, those that look for importance included, the variance of J is less; means stay.
