@@ -37,8 +37,8 @@ ElementLocator::ElementLocator(std::span<const scene::SurfacePatch> patches) : m
     boxes.emplace_back(box.min() - margin, box.max() + margin);
   }
   for (const mesh::ElementMesh::Part& part : mesh_.parts()) {
-    part_.resize(std::max(part_.size(), slot(part.surface, part.side) + 1), -1);
-    part_[slot(part.surface, part.side)] = static_cast<std::int32_t>(parts_.size());
+    part_of_.resize(std::max(part_of_.size(), slot(part.surface, part.side) + 1), -1);
+    part_of_[slot(part.surface, part.side)] = static_cast<std::int32_t>(parts_.size());
     parts_.push_back({part.first, geometry::BoxGrid(std::span(boxes).subspan(part.first, part.count)),
                       PlaneOutlines(patches.subspan(part.first, part.count))});
   }
@@ -46,8 +46,8 @@ ElementLocator::ElementLocator(std::span<const scene::SurfacePatch> patches) : m
 
 ElementLocator::Candidates ElementLocator::candidates(const scene::SurfacePoint& point) const {
   const std::size_t at = slot(point.surface, point.side);
-  if (at >= part_.size() || part_[at] < 0) return {};
-  const Part& part = parts_[static_cast<std::size_t>(part_[at])];
+  if (at >= part_of_.size() || part_of_[at] < 0) return {};
+  const Part& part = parts_[static_cast<std::size_t>(part_of_[at])];
   return {&part, part.grid.near(point.position), part.outlines.at(point.position)};
 }
 

@@ -65,7 +65,7 @@ class ElementLocator {
   mesh::ElementMesh mesh_;
   std::vector<Outline> outlines_;
   std::vector<Part> parts_;
-  std::vector<std::int32_t> part_;  ///< by surface and side; -1: it has none
+  std::vector<std::int32_t> part_of_;  ///< by surface and side; -1: it has none
 };
 
 }  // namespace interflect::fem
