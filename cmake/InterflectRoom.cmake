@@ -35,6 +35,8 @@ if(INTERFLECT_SANITIZE)
   target_link_options(interflect_options INTERFACE -fsanitize=${INTERFLECT_SANITIZE})
 endif()
 
+include(InterflectPrecompile)
+
 function(interflect_room room)
   cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES;PUBLIC_LIBRARIES" ${ARGN})
   add_library(interflect_${room} ${ARG_SOURCES})
@@ -47,5 +49,6 @@ function(interflect_room room)
   target_link_libraries(interflect_${room}
     PUBLIC ${ARG_ROOMS} ${ARG_PUBLIC_LIBRARIES}
     PRIVATE $<BUILD_INTERFACE:interflect::options> ${ARG_LIBRARIES})
+  interflect_precompile(interflect_${room})
   set_property(GLOBAL APPEND PROPERTY INTERFLECT_ROOMS ${room})
 endfunction()
