@@ -8,6 +8,7 @@
 #include "core/format.h"
 #include "fem/bounds/allotment.h"
 #include "fem/bounds/cell_transport.h"
+#include "fem/bounds/lit_regions.h"
 #include "fem/columns.h"
 #include "fem/point_view_factors.h"
 #include "scene/place.h"
@@ -64,10 +65,12 @@ int cuts_of(Index elements) {
   return elements <= few ? 4 : 3;
 }
 
-/// A ray may be lost in the seam of two walls; an opening is missing in the rows of all that see it.
-bool is_closed(const RadiositySolution& solution) {
-  constexpr double nothing = 1e-4;
-  return solution.closed || (solution.closure_correction == 0 && solution.rows.lowest > 1 - nothing);
+/// Elements, and what else light may end on: of a closed scene no more than that.
+Surroundings surroundings_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> elements,
+                             const LitRegions& lit) {
+  std::vector<scene::SurfacePatch> all(elements.begin(), elements.end());
+  all.insert(all.end(), lit.black_sides().begin(), lit.black_sides().end());
+  return {scene, all, lit.closed()};
 }
 
 }  // namespace
@@ -76,7 +79,8 @@ class Enclosure::Iteration {
  public:
   Iteration(const scene::Scene& scene, const RadiositySolution& solution)
       : patches_(solution.mesh.patches()),
-        around_(scene, patches_, is_closed(solution)),
+        lit_(scene),
+        around_(surroundings_of(scene, patches_, lit_)),
         field_(solution.field ? &*solution.field : nullptr),
         factors_(scene, patches_, field_ ? std::min(1, field_->order) : 0),
         B_(around_, solution, scene.channel_count()),
@@ -160,7 +164,7 @@ class Enclosure::Iteration {
       H.upper += sent + doubt;
     }
     const CellTransport transport =
-        transport_over(around_, around_.cell_at(at.position, at.normal), B_, around_.within(at.position), 0);
+        transport_over(around_, around_.cell_at(at.position, at.normal), B_, is_surrounded(at), 0);
     H = H + with_slack(transported(transport).front());
     H.lower = H.lower.cwiseMax(0.0);
     return interval(H);
@@ -169,6 +173,10 @@ class Enclosure::Iteration {
   std::vector<Interval> irradiance, mean_irradiance, radiosity, error;
 
  private:
+  /// Whether all rays from a point end on something that is known here.
+  bool is_surrounded(const measure::PointIrradiance& at) const {
+    return lit_.closed() ? lit_.contain(at.position, at.normal) : around_.within(at.position);
+  }
   /// B_h on an element by its constant, or by that and its linear functions.
   ColumnMatrix coefficients(Index element, Index functions) const {
     return functions > 1 ? ColumnMatrix(field_->radiosity.middleRows(element * field_->functions, functions))
@@ -366,6 +374,7 @@ class Enclosure::Iteration {
   }
 
   std::span<const scene::SurfacePatch> patches_;
+  LitRegions lit_;
   Surroundings around_;
   const PolynomialField* field_;
   PointViewFactors factors_;

@@ -32,7 +32,8 @@ namespace interflect::fem {
 /// O(h²) about linear functions; those of H anywhere in an element are O(h) in any case.
 /// They hold past whatever hides; what may be hidden in part is cut into smaller parts, and counts as anything from
 /// nothing to all of it.  Rounding alone is not proved: 1e-11 of the largest |B_h|, and 1e-6 of the largest |r| and the
-/// largest |T e| together, are added for it.  A scene counts as closed if no ray that leaves an element is lost, or no row sum lacks 1e-4.
+/// largest |T e| together, are added for it.  A scene counts as closed only where that is proved (lit_regions.h), but
+/// for openings narrower than 1e-8 of its size.
 /// Test: tests/fem/bounds/enclosure.cpp
 class Enclosure {
  public:
