@@ -366,8 +366,6 @@ TEST(Validate, a_solver_that_has_not_converged_is_a_reason) {
   EXPECT_TRUE(contains(certificate.at("run").at("warnings").dump(), "has not converged"));
 }
 
-// In the furnace every pixel's radiance is 1 / pi (E = 1 - rho in a closed box).  Of 120 000 independent pixels the
-// mean is normal: 5 standard errors are exceeded with a probability of 6e-7.
 // In the furnace every pixel is 1 / pi, gathered or not.
 TEST(Render, sees_the_furnace_as_bright_as_it_is) {
   const TemporaryFolder folder;
@@ -389,6 +387,8 @@ TEST(Render, sees_the_furnace_as_bright_as_it_is) {
   }
 }
 
+// In the furnace every pixel's radiance is 1 / pi (E = 1 - rho in a closed box).  Of 120 000 independent pixels the
+// mean is normal: 5 standard errors are exceeded with a probability of 6e-7.
 TEST(Trace, sees_the_furnace_as_bright_as_it_is_and_says_how_sure_it_is) {
   const TemporaryFolder folder;
   const Outcome trace = interflect({"trace", shipped_scene("furnace"), "--spp", "4", "-o", folder / "f.exr"});
