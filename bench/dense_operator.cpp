@@ -1,5 +1,5 @@
-// How close the dense operator comes to a plain read of its bytes, with one column and with three, and a sparse one beside it:
-// ratios within one interleaved run.
+// How close the dense operator comes to a plain read of its bytes, with one column and with three, and a sparse one
+// beside it: ratios within one interleaved run.
 //
 //   bench_dense_operator [n ...]      default: 5000 10000
 
@@ -24,7 +24,7 @@ using namespace interflect;
 
 namespace {
 
-constexpr int rounds = 25, krylov_iterations = 4;
+constexpr int rounds = 25, iterations = 4;
 constexpr std::size_t large_page = std::size_t{2} << 20;
 
 double seconds(const std::function<void()>& work) {
@@ -66,6 +66,14 @@ struct Problem {
   std::unique_ptr<double[], Free> plain;
 };
 
+/// Of those after the first, which has preparations in it.
+double seconds_an_iteration(const solvers::RadiositySolver& solver, const solvers::System& system,
+                            core::LocalRun& run) {
+  solvers::SolverState state;
+  const solvers::SolverReport report = solver.advance(system, state, {0.0, iterations}, run);
+  return (report.history.back().seconds - report.history.front().seconds) / (iterations - 1);
+}
+
 void compare(const Problem& problem, Index columns, unsigned threads, double& sink) {
   core::LocalRun run(1, threads);
   std::vector<double> read, apply, sweep, krylov;
@@ -76,12 +84,8 @@ void compare(const Problem& problem, Index columns, unsigned threads, double& si
   for (int round = 0; round < rounds; ++round) {
     read.push_back(seconds([&] { sink += plain_sum(problem.plain.get(), problem.count, run.get()); }));
     apply.push_back(seconds([&] { problem.K.apply(b, out, run); }));
-    solvers::SolverState state;
-    sweep.push_back(seconds([&] { solvers::GaussSeidel().advance(system, state, {0.0, 1}, run); }));
-    solvers::SolverState of_krylov;
-    const solvers::SolverReport report =
-        solvers::ConjugateGradients().advance(system, of_krylov, {0.0, krylov_iterations}, run);
-    krylov.push_back((report.history.back().seconds - report.history.front().seconds) / (krylov_iterations - 1));
+    sweep.push_back(seconds_an_iteration(solvers::GaussSeidel(), system, run));
+    krylov.push_back(seconds_an_iteration(solvers::ConjugateGradients(), system, run));
     sink += out.sum();
   }
   const double gigabytes = static_cast<double>(problem.count) * 8e-9;

@@ -52,11 +52,10 @@ class Sampling {
         K_(areas_of(mesh)),
         rho_(to_columns(materials_.reflectance, scene.channel_count()).cwiseMax(least_reflectance)),
         R_(rho_) {
-    const bool survivors = settings.solver == "shooting-survival" || settings.solver == "gathering-survival";
-    if (survivors && (rho_.array() <= least_reflectance).any())
+    const std::string& instead = solvers::solver_named(settings.solver).finds_black_instead;
+    if (!instead.empty() && (rho_.array() <= least_reflectance).any())
       throw core::InputError("solver '" + settings.solver + "'",
-                             "what reflects nothing is not found where walks go on; '" +
-                                 settings.solver.substr(0, settings.solver.find('-')) + "-collision' would do");
+                             "what reflects nothing is not found where walks go on; '" + instead + "' would do");
   }
 
   const ElementMaterials& materials() const { return materials_; }

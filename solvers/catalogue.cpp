@@ -28,7 +28,7 @@ std::unique_ptr<RadiositySolver> over_relaxation(const SolverSettings& settings)
   return std::make_unique<GaussSeidel>(settings.relaxation);
 }
 std::unique_ptr<RadiositySolver> symmetric_gauss_seidel(const SolverSettings&) {
-  return std::make_unique<GaussSeidel>(1, GaussSeidel::Sweep::there_and_back);
+  return std::make_unique<GaussSeidel>(1, GaussSeidel::Sweep::back_and_forth);
 }
 std::unique_ptr<RadiositySolver> gmres(const SolverSettings& settings) {
   if (settings.restart < 1) throw core::InputError("solver 'gmres'", "a restart of 1 or more expected");
@@ -80,7 +80,8 @@ const std::vector<SolverEntry>& known_solvers() {
       {"jacobi", "one bounce of light an iteration", Needs::products, plain<Jacobi>},
       {"gauss-seidel", "row after row with the newest values: half as many sweeps", Needs::products,
        plain<GaussSeidel>},
-      {"symmetric-gauss-seidel", "over all rows and back", Needs::products, symmetric_gauss_seidel},
+      {"symmetric-gauss-seidel", "over all rows from the last to the first, and there again", Needs::products,
+       symmetric_gauss_seidel},
       {"over-relaxation", "Gauss-Seidel's steps times --relaxation", Needs::products, over_relaxation},
       {"southwell", "the largest residual first", Needs::symmetry, southwell},
       {"progressive", "the brightest shoots what it has: a picture after every step", Needs::symmetry, progressive},
@@ -98,11 +99,13 @@ const std::vector<SolverEntry>& known_solvers() {
        Needs::walks, stochastic_ray},
       {"shooting-collision", "random walks from what shines, scored at every hit", Needs::walks,
        walks<Way::shooting, Score::collision>},
-      {"shooting-survival", "the same, scored where they go on", Needs::walks, walks<Way::shooting, Score::survival>},
+      {"shooting-survival", "the same, scored where they go on", Needs::walks, walks<Way::shooting, Score::survival>,
+       "shooting-collision"},
       {"shooting-absorption", "the same, scored where they end", Needs::walks, walks<Way::shooting, Score::absorption>},
       {"gathering-collision", "random walks from every element, scored at every hit", Needs::walks,
        walks<Way::gathering, Score::collision>},
-      {"gathering-survival", "the same, scored where they go on", Needs::walks, walks<Way::gathering, Score::survival>},
+      {"gathering-survival", "the same, scored where they go on", Needs::walks, walks<Way::gathering, Score::survival>,
+       "gathering-collision"},
       {"gathering-absorption", "the same, scored where they end", Needs::walks,
        walks<Way::gathering, Score::absorption>},
       {"continuous-shooting", "random walks from point to point: light itself, not the equations'", Needs::points,

@@ -53,8 +53,8 @@ class Pilot {
   }
 
  private:
-  /// b of an exitance: shot from what is large enough to be found, and gathered once from that, since small unknowns are
-  /// seldom found.
+  /// b of an exitance: shot from what is large enough to be found, and gathered once from that, since small unknowns
+  /// are seldom found.
   ColumnMatrix reflected(const ColumnMatrix& e) {
     const Eigen::Map<const Eigen::VectorXd> G(system_.K.gram().data(), e.rows());
     const auto sequence = sequence_->replicate(used_++);

@@ -4,14 +4,14 @@
 
 namespace interflect::solvers {
 
-/// What walks are worth, and how many of them are best: by the exact variances of a shooting and a gathering walk with collision
-/// scores (random_walk.h),
+/// What walks are worth, and how many of them are best: by the exact variances of a shooting and a gathering walk with
+/// collision scores (random_walk.h),
 ///
 ///   V_s = rho P / G b (1 + 2 xi) - b²,     V_g = rho sum_s (e_s + 2 b_s) b_is - b²
 ///
-/// in which sum_s (e_s + 2 b_s) b_is is the reflected light of the exitance e (e + 2 b).  N walks that shoot and n_i that
-/// gather at i, averaged by 1 / variance, leave 1 / (N / V_s + n_i / V_g) at i.  Of all that cost as much those have the least
-/// sum_i G_i / (N / V_s,i + n_i / V_g,i) that have, with N = 1 and one lambda,
+/// in which sum_s (e_s + 2 b_s) b_is is the reflected light of the exitance e (e + 2 b).  N walks that shoot and n_i
+/// that gather at i, averaged by 1 / variance, leave 1 / (N / V_s + n_i / V_g) at i.  Of all that cost as much those
+/// have the least sum_i G_i / (N / V_s,i + n_i / V_g,i) that have, with N = 1 and one lambda,
 ///
 ///   n_i = V_g max(0, sqrt(G_i / (lambda V_g)) - 1 / V_s),     sum_i G_i / V_s / (1 / V_s + n_i / V_g)² = lambda
 ///
@@ -25,8 +25,8 @@ struct WalkPlan {
 WalkPlan plan_walks(ColumnMatrix shooting, ColumnMatrix gathering, std::span<const double> areas,
                     const Eigen::RowVectorXd& scale);
 
-/// Shooting and gathering walks together [Sbert 1997], of constants: variances are found by a few rays first, are the same
-/// for all replications, and are only weights, so that means are right whatever they are.
+/// Shooting and gathering walks together [Sbert 1997], of constants: variances are found by a few rays first, are the
+/// same for all replications, and are only weights, so that means are right whatever they are.
 /// Test: tests/solvers/combined_walks.cpp
 class CombinedWalks final : public RadiositySolver {
  public:

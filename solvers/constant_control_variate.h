@@ -10,8 +10,8 @@ namespace interflect::solvers {
 ///
 ///   R G^-1 K B = R beta + R G^-1 K (B - beta)
 ///
-/// and samples bring the last alone.  beta, of each column, is what makes sum G |B - beta| least, to which their variance
-/// is in proportion: the median of B by area.
+/// and samples bring the last alone.  beta, of each column, is what makes sum G |B - beta| least, to which their
+/// variance is in proportion: the median of B by area.
 class ConstantControlVariate final : public SampledBounce {
  public:
   /// @param of  how what is left is sampled.  The system outlives this.
@@ -27,7 +27,8 @@ class ConstantControlVariate final : public SampledBounce {
   std::unique_ptr<SampledBounce> bounce_;
 };
 
-/// @throws core::InputError  where more than one in a thousand of the rays that leave unknowns arrives nowhere: the room is open
+/// @throws core::InputError  where more than one in a thousand of the rays that leave unknowns arrives nowhere: the
+/// room is open
 void require_closed(const System& system, const std::string& solver, const Run& run);
 
 }  // namespace interflect::solvers

@@ -41,9 +41,9 @@ class WalkBatch {
 };
 
 /// Walks from element to element, by F_ij, that go on from j with the probability rho_j: what they score is in
-/// random_walk.h.  With several columns walks are shared: they go on with the probability sum T rho / sum T of what they
-/// carry, T a column, which is changed so that each has the right mean; of one column that is rho.  Walks given together
-/// take each step together, so that it is drawn for all at once.
+/// random_walk.h.  With several columns walks are shared: they go on with the probability sum T rho / sum T of what
+/// they carry, T a column, which is changed so that each has the right mean; of one column that is rho.  Walks given
+/// together take each step together, so that it is drawn for all at once.
 class ElementWalks {
  public:
   enum class Score { absorption, survival, collision };
@@ -57,8 +57,8 @@ class ElementWalks {
 
   /// Births in proportion to power times worth, defensively (potential.h), and no longer to power alone.
   void prefer_sources(const ColumnMatrix& worth);
-  /// Moreover they go on where what they carry is worth it: with the probability by which a walk is worth afterwards what one
-  /// is at its birth, if that is less than 1, and no less than a tenth of rho's.
+  /// Moreover they go on where what they carry is worth it: with the probability by which a walk is worth afterwards
+  /// what one is at its birth, if that is less than 1, and no less than a tenth of rho's.
   void prefer_ways(const ColumnMatrix& worth);
 
   /// How many numbers are by a sequence: birth, a step, and whether to go on.
@@ -94,8 +94,8 @@ class ElementWalks {
   void step_between_elements(Wave& wave, std::span<Index> arrived) const;
   void step_between_points(Wave& wave, std::span<Index> arrived) const;
 
-  /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, score) is told where one
-  /// scores, score having the mean 1.
+  /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, score) is told where
+  /// one scores, score having the mean 1.
   template <class Step, class Hit>
   std::uint64_t walk(Wave wave, const Step& step, const Hit& hit) const;
   template <class Step>

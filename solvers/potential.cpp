@@ -17,8 +17,9 @@ std::unique_ptr<PowerTransfer> evenly(const System& system, const ColumnMatrix& 
 
 }  // namespace
 
-Potential::Potential(const System& system, const SolverSettings& settings, const Run& run, std::uint64_t rays)
-    : system_(system), run_(run), rays_(std::max<std::uint64_t>(1, rays / parts)) {
+Potential::Potential(const System& system, const SolverSettings& settings, const Run& run, std::uint64_t rays,
+                     std::function<void()> between)
+    : system_(system), run_(run), rays_(std::max<std::uint64_t>(1, rays / parts)), between_(std::move(between)) {
   const auto first = core::make_sequence(settings.sequence, core::derived_seed(run.seed, "potential") + rays);
   for (std::uint64_t part = 0; part < parts; ++part) sequences_.push_back(first->replicate(part));
   const Eigen::Map<const Eigen::VectorXd> G(system.K.gram().data(), system.e.rows());
@@ -45,7 +46,7 @@ ColumnMatrix Potential::solved(const ColumnMatrix& source) {
   const ColumnMatrix power = G.asDiagonal() * source;
   return source + G.cwiseInverse().asDiagonal() * in_parts([&](const core::SampleSequence& sequence) {
                     Bounces bounces([&](const ColumnMatrix& sent) { return evenly(system_, sent); }, sequence);
-                    ColumnMatrix reflected = bounces.incremental(power, rays_);
+                    ColumnMatrix reflected = bounces.incremental(power, rays_, between_);
                     draws_ += bounces.draws();
                     return reflected;
                   });
@@ -59,6 +60,7 @@ ColumnMatrix Potential::gathered(const ColumnMatrix& of) {
   const ColumnMatrix power = G.asDiagonal() * of;
   const auto transfer = evenly(white, power);
   return G.cwiseInverse().asDiagonal() * in_parts([&](const core::SampleSequence& sequence) {
+           between_();
            ColumnMatrix arrived = ColumnMatrix::Zero(of.rows(), of.cols());
            transfer->add(sequence, 0, rays_, 1, arrived);
            draws_ += rays_;

@@ -11,8 +11,8 @@ namespace interflect::solvers {
 /// sum |power| of each column, by a pass over memory as it lies.
 Eigen::RowVectorXd column_sizes(const ColumnMatrix& power);
 
-/// Unknowns drawn with a probability in proportion to the power that they send, columns having an equal say: by inversion,
-/// with a guide table [Chen, Asau 1974], in a time that does not grow with their number.
+/// Unknowns drawn with a probability in proportion to the power that they send, columns having an equal say: by
+/// inversion, with a guide table [Chen, Asau 1974], in a time that does not grow with their number.
 class PowerDraw {
  public:
   /// @param power  [W | lm], unknowns x columns; signs do not matter
@@ -37,7 +37,8 @@ class PowerDraw {
   std::vector<std::uint32_t> guide_;  ///< where to begin looking, by u in as many equal parts as there are unknowns
 };
 
-/// Half in proportion to power and half to area, of each column: so that what sends little, or nothing yet, is drawn as well.
+/// Half in proportion to power and half to area, of each column: so that what sends little, or nothing yet, is drawn as
+/// well.
 ColumnMatrix half_by_area(const ColumnMatrix& power, std::span<const double> areas);
 
 /// Radiosity times area: what unknowns send.

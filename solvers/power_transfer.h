@@ -12,8 +12,8 @@ namespace interflect::solvers {
 ///
 ///   rho_i P_j / (p_j N)        to the i where it arrives, p_j the probability of j       (rho_i P / N of one column)
 ///
-/// Its mean is rho_i sum_j F_ji P_j, the power that one bounce of P reflects at i; of one column its variance, as radiosity, is
-/// V = (rho_i P / G_i b_i - b_i²) / N.
+/// Its mean is rho_i sum_j F_ji P_j, the power that one bounce of P reflects at i; of one column its variance, as
+/// radiosity, is V = (rho_i P / G_i b_i - b_i²) / N.
 ///
 /// Both ways, the same line carries light back from i to j as well.  It could have been drawn from either end, with the
 /// densities q_j K_ij and q_i K_ij, q = p / G, of which it takes the sum (the balance heuristic): brings are

@@ -4,14 +4,14 @@
 
 namespace interflect::solvers {
 
-/// Progressive refinement [Cohen, Chen, Wallace, Greenberg 1988]: the unknown with the most unshot light shoots all of it,
-/// by one row of K that may be computed on demand; shooting.h has the step.  x is what was shot, and unshot light r its
-/// residual, so that shot and unshot light together, x + r, is one bounce better than x; what a viewer is shown is
+/// Progressive refinement [Cohen, Chen, Wallace, Greenberg 1988]: the unknown with the most unshot light shoots all of
+/// it, by one row of K that may be computed on demand; shooting.h has the step.  x is what was shot, and unshot light r
+/// its residual, so that shot and unshot light together, x + r, is one bounce better than x; what a viewer is shown is
 ///
 ///   x + r + rho Amb
 ///
-/// with the ambient term of shooting.h.  With overshooting [Feda, Purgathofer 1992] an unknown shoots a share of it ahead,
-/// and keeps as much unshot with the other sign: it helps at middle reflectances and hurts at high ones.
+/// with the ambient term of shooting.h.  With overshooting [Feda, Purgathofer 1992] an unknown shoots a share of it
+/// ahead, and keeps as much unshot with the other sign: it helps at middle reflectances and hurts at high ones.
 ///
 /// An iteration is `steps` of them, after which the observer may look.  Ends, too, at a fraction of unshot light.
 /// Test: tests/solvers/shooting.cpp

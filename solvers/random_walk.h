@@ -4,8 +4,8 @@
 
 namespace interflect::solvers {
 
-/// Discrete random walks from element to element [Pattanaik, Mudur 1995; Sbert 1997], by F_ij, that go on from j with the
-/// probability rho_j: estimates of b = R G^-1 K (e + b), the reflected light, without any matrix.
+/// Discrete random walks from element to element [Pattanaik, Mudur 1995; Sbert 1997], by F_ij, that go on from j with
+/// the probability rho_j: estimates of b = R G^-1 K (e + b), the reflected light, without any matrix.
 ///
 /// **Shooting.** A walk is born at s with the probability G_s e_s / P, P = sum G e, with the power P.  It scores for
 /// every element i that it comes to,
@@ -24,12 +24,12 @@ namespace interflect::solvers {
 ///
 /// b_is being the part of b_i that comes from s.
 ///
-/// **Continuous** walks shoot, score collisions, and go on from the very point where they arrived: their mean is not the
-/// solution of the equations but that of light itself, averaged over elements, since what arrives is not spread over the
-/// element before it leaves.
+/// **Continuous** walks shoot, score collisions, and go on from the very point where they arrived: their mean is not
+/// the solution of the equations but that of light itself, averaged over elements, since what arrives is not spread
+/// over the element before it leaves.
 ///
-/// Errors are by independent replications (replications.h).  Sources that reflect nothing are not found by gathering with
-/// survival, nor what reflects everything by absorption: these are refused.
+/// Errors are by independent replications (replications.h).  Sources that reflect nothing are not found by gathering
+/// with survival, nor what reflects everything by absorption: these are refused.
 /// Test: tests/solvers/random_walk.cpp
 class RandomWalk final : public RadiositySolver {
  public:

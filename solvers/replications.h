@@ -7,8 +7,8 @@
 
 namespace interflect::solvers {
 
-/// Independent repetitions of an estimate of all unknowns: their mean, and its standard error by how they differ, which has
-/// count() - 1 degrees of freedom whatever is inside a repetition.
+/// Independent repetitions of an estimate of all unknowns: their mean, and its standard error by how they differ, which
+/// has count() - 1 degrees of freedom whatever is inside a repetition.
 class Replications {
  public:
   Replications(Index unknowns, Index columns, int count);

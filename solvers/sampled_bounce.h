@@ -27,8 +27,8 @@ class SampledBounce {
 /// How a solver samples: of a power, which outlives it.
 using BounceFactory = std::function<std::unique_ptr<SampledBounce>(const ColumnMatrix& power)>;
 
-/// The bounces of one replication.  Each has a randomisation of its own: points of one sequence know of each other, and what
-/// is sent was found by earlier ones, so that means would be off.
+/// The bounces of one replication.  Each has a randomisation of its own: points of one sequence know of each other, and
+/// what is sent was found by earlier ones, so that means would be off.
 class Bounces {
  public:
   /// The sequence outlives this.
@@ -39,8 +39,8 @@ class Bounces {
   /// What one bounce of a power reflects.
   ColumnMatrix bounced(const ColumnMatrix& power, std::uint64_t samples);
   /// G (b - e) by bounces of bounces, `samples` for what is emitted, and for all that follows as many as its worth asks
-  /// for, between a half and four times what its size does.  Of what is less than one sample carries all or nothing goes on, by
-  /// chance, so that means are right.
+  /// for, between a half and four times what its size does.  Of what is less than one sample carries all or nothing
+  /// goes on, by chance, so that means are right.
   /// @param between  called before every bounce: what it throws ends it
   ColumnMatrix incremental(
       const ColumnMatrix& emitted, std::uint64_t samples, const std::function<void()>& between = [] {});

@@ -61,9 +61,10 @@ SolverReport sample_in_rounds(const System& system, SolverState& state, const St
   std::uint64_t done = 0, next = rounds.first;
   for (bool more = true; more; next = 2 * done) {
     if (most > 0) next = std::min(next, most);
-    std::atomic<std::uint64_t> draws = rounds.prepare ? rounds.prepare(done, next) : 0;
+    std::atomic<std::uint64_t> draws = 0;
     core::Progress::Stage stage(run.progress, "samples", static_cast<std::uint64_t>(replications.count()));
     try {
+      if (rounds.prepare) draws = rounds.prepare(done, next, stop);
       replications.add(run, [&](int r, ColumnMatrix& sum) {
         draws += rounds.add(r, done, next, sum, stop);
         stage.advance();

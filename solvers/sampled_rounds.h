@@ -32,13 +32,13 @@ class RoundStop {
 struct SampledRounds {
   std::uint64_t first;            ///< samples of a replication in the first round
   std::uint64_t starts_a_sample;  ///< how many StoppingRule::samples each is
-  /// Samples begin .. end of a replication: what the radiosity has beyond e, summed over them.  From any thread, one at a
-  /// time of each replication.  @return  draws of the TransitionSampler
+  /// Samples begin .. end of a replication: what the radiosity has beyond e, summed over them.  From any thread, one at
+  /// a time of each replication.  @return  draws of the TransitionSampler
   std::function<std::uint64_t(int replication, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum,
                               const RoundStop& stop)>
       add;
   /// Before each round, of all replications: what they sample by may get better.  @return  draws
-  std::function<std::uint64_t(std::uint64_t begin, std::uint64_t end)> prepare{};
+  std::function<std::uint64_t(std::uint64_t begin, std::uint64_t end, const RoundStop& stop)> prepare{};
   std::vector<Index> unanswered{};  ///< unknowns that nothing is said of: their standard errors are infinite
 };
 /// x and its standard errors, round after round.  Stopped before there is any, x is e, with infinite errors.

@@ -1,5 +1,6 @@
 #include "solvers/shooting.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -25,11 +26,18 @@ Shooting::Shooting(const System& system, const std::string& solver, const Column
       r_(r.transpose()),
       by_area_(system.R.reflectance().transpose()),
       row_(ColumnMatrix::Zero(1, x.rows())),
+      sparse_(overshoot > 0 ? nullptr : system.K.sparse_rows()),
       of_chunks_(static_cast<std::size_t>((x.rows() + chunk - 1) / chunk)),
       residual_of_chunks_(x.cols(), std::ssize(of_chunks_)),
       largest_x_(x_.cwiseAbs().rowwise().maxCoeff()) {
   for (Index a = 0; a < unknowns(); ++a) by_area_.col(a) /= system.K.gram()[static_cast<std::size_t>(a)];
-  spread(Eigen::VectorXd::Zero(columns()));
+  if (sparse_ == nullptr) {
+    spread(Eigen::VectorXd::Zero(columns()));
+    return;
+  }
+  by_power_.emplace(unknowns());
+  by_residual_.assign(static_cast<std::size_t>(columns()), Tournament(unknowns()));
+  for (Index a = 0; a < unknowns(); ++a) weigh(a);
 }
 
 double Shooting::unshot_fraction() const { return solvers::unshot_fraction(system_, r_.transpose()); }
@@ -37,28 +45,55 @@ double Shooting::unshot_fraction() const { return solvers::unshot_fraction(syste
 double Shooting::relative_residual() const {
   double largest = 0;
   for (Index c = 0; c < columns(); ++c) {
-    const double r = residual_of_chunks_.row(c).maxCoeff<Eigen::PropagateNaN>();
+    const double r = largest_residual(c);
     if (std::isnan(r)) return r;
     if (r > 0) largest = std::max(largest, largest_x_(c) > 0 ? r / largest_x_(c) : 1.0);
   }
   return largest;
 }
 
+double Shooting::largest_residual(Index column) const {
+  return sparse_ != nullptr ? by_residual_[static_cast<std::size_t>(column)].largest()
+                            : residual_of_chunks_.row(column).maxCoeff<Eigen::PropagateNaN>();
+}
+
 void Shooting::step(Index i, const Eigen::VectorXd& d) {
-  access_.rows(i, 1, row_);
+  fetch(i);
   move(i, d);
   r_.col(i) -= d;
+  if (sparse_ != nullptr) weigh(i);
   spread(d);
 }
 
 void Shooting::relax(Index i) {
-  access_.rows(i, 1, row_);
+  const double K_ii = fetch(i);
   Eigen::VectorXd d(columns());
-  for (Index c = 0; c < columns(); ++c) d(c) = r_(c, i) / (1 - by_area_(c, i) * row_(0, i));
+  for (Index c = 0; c < columns(); ++c) d(c) = r_(c, i) / (1 - by_area_(c, i) * K_ii);
   move(i, d);
   r_.col(i).setZero();
-  if (std::isfinite(row_(0, i))) row_(0, i) = 0;
+  if (sparse_ != nullptr) weigh(i);
+  if (std::isfinite(K_ii)) leave_out(i);
   spread(d);
+}
+
+/// Row i.  @return K_ii
+double Shooting::fetch(Index i) {
+  if (sparse_ == nullptr) {
+    access_.rows(i, 1, row_);
+    return row_(0, i);
+  }
+  sparse_->row(i, entries_);
+  const auto at = std::lower_bound(entries_.begin(), entries_.end(), i,
+                                   [](const RowEntry& entry, Index unknown) { return entry.unknown < unknown; });
+  return at != entries_.end() && at->unknown == i ? at->K : 0.0;
+}
+
+/// What the row that was fetched has on the diagonal.
+void Shooting::leave_out(Index i) {
+  if (sparse_ == nullptr)
+    row_(0, i) = 0;
+  else
+    std::erase_if(entries_, [&](const RowEntry& entry) { return entry.unknown == i; });
 }
 
 void Shooting::move(Index i, const Eigen::VectorXd& d) {
@@ -72,6 +107,7 @@ void Shooting::move(Index i, const Eigen::VectorXd& d) {
 }
 
 void Shooting::spread(const Eigen::VectorXd& d) {
+  if (sparse_ != nullptr) return spread_entries(d);
   const bool in_one_go = !(overshoot_ > 0);
   run_.threads.for_blocks(unknowns(), chunk, [&](Index begin, Index end) {
     spread(d, begin, end);
@@ -89,6 +125,24 @@ void Shooting::spread(const Eigen::VectorXd& d, Index begin, Index end) {
   const auto K = row_.row(0).segment(begin, count).array();
   for (Index c = 0; c < columns(); ++c)
     r_.row(c).segment(begin, count).array() += d(c) * K * by_area_.row(c).segment(begin, count).array();
+}
+
+void Shooting::spread_entries(const Eigen::VectorXd& d) {
+  for (const RowEntry& entry : entries_) {
+    for (Index c = 0; c < columns(); ++c) r_(c, entry.unknown) += d(c) * entry.K * by_area_(c, entry.unknown);
+    weigh(entry.unknown);
+  }
+}
+
+/// Lets an unknown whose residual has changed play again.
+void Shooting::weigh(Index a) {
+  double power = 0;
+  for (Index c = 0; c < columns(); ++c) {
+    const double r = std::abs(r_(c, a));
+    by_residual_[static_cast<std::size_t>(c)].set(a, r);
+    power += r;
+  }
+  by_power_->set(a, power * system_.K.gram()[static_cast<std::size_t>(a)]);
 }
 
 /// rho_a = by_area_a G_a

@@ -88,13 +88,15 @@ class RadiositySolver {
 /// One that is known by name.
 struct SolverEntry {
   std::string name, summary;
-  /// What it needs beside products with K: nothing; K symmetric; System::walks; those with lines through everything; with
-  /// points; in a closed room; those and a System::target.
+  /// What it needs beside products with K: nothing; K symmetric; System::walks; those with lines through everything;
+  /// with points; in a closed room; those and a System::target.
   enum class Needs { products, symmetry, walks, lines, points, closed_room, target };
   Needs needs;
   /// Its answers have standard errors.
   bool samples() const { return needs != Needs::products && needs != Needs::symmetry; }
   std::unique_ptr<RadiositySolver> (*make)(const SolverSettings&);
+  /// Of one that finds nothing of what reflects nothing, scored as it is where walks go on: who does.  Empty: it does.
+  std::string finds_black_instead{};
 };
 const std::vector<SolverEntry>& known_solvers();
 /// @throws core::InputError with the names known

@@ -93,9 +93,10 @@ SolverReport StochasticJacobi::advance(const System& system, SolverState& state,
   // Bounces pass over all unknowns: with far fewer samples that is all that takes time.
   SampledRounds rounds{std::max<std::uint64_t>(256, static_cast<std::uint64_t>(system.e.rows()) / 8), 1, add};
   if (kind_ == Kind::importance_driven)
-    rounds.prepare = [&](std::uint64_t begin, std::uint64_t end) {
+    rounds.prepare = [&](std::uint64_t begin, std::uint64_t end, const RoundStop& stop) {
       Potential potential(system, settings_, run,
-                          potential_rays(system, (end - begin) * static_cast<std::uint64_t>(bounces.size())));
+                          potential_rays(system, (end - begin) * static_cast<std::uint64_t>(bounces.size())),
+                          [&] { stop.here(); });
       worth = potential.of_a_bounce();
       return potential.draws();
     };

@@ -5,8 +5,8 @@
 
 namespace interflect::solvers {
 
-/// Jacobi's iteration with bounces by samples (sampled_bounce.h): incremental, what a bounce brought being what the next one sends, with
-/// samples in proportion to it; each estimate is unbiased.  Then, with twice as many each
+/// Jacobi's iteration with bounces by samples (sampled_bounce.h): incremental, what a bounce brought being what the
+/// next one sends, with samples in proportion to it; each estimate is unbiased.  Then, with twice as many each
 /// time, anew, and all are averaged by their samples; all but `incremental` and
 /// `importance_driven` let a bounce of all that the last solution had take the
 /// place of every new one, which costs less.

@@ -5,19 +5,20 @@
 namespace interflect::solvers {
 
 /// A reflectance of 1, of what only passes on what it receives, has an answer where others absorb.
-/// @throws core::InputError         reflectance outside 0 <= rho <= 1, or 1 everywhere; an exitance that is not a finite number; an
-/// unknown
-///                                  whose entry of G is not a positive number: an element without area
+/// @throws core::InputError         reflectance outside 0 <= rho <= 1, or 1 everywhere; an exitance that is not a
+///                                  finite number; an unknown whose entry of G is not a positive number: an element
+///                                  without area
 /// @throws core::PreconditionError  shapes of K, R and e that do not fit
 void require_solvable(const System& system);
 
-/// @throws core::InputError  where the operator has no rows, or reflectance varies inside elements: what solvers that go
-///                           by rows cannot have
+/// @throws core::InputError  where the operator has no rows, or reflectance varies inside elements: what solvers that
+///                           go by rows cannot have
 const RowAccess& required_rows(const System& system, const std::string& solver);
 /// The same of its columns, for solvers that shoot.
 const RowAccess& required_columns(const System& system, const std::string& solver);
 
-/// @throws core::InputError  where the system has no walks, or none with its functions, or reflectance varies inside elements
+/// @throws core::InputError  where the system has no walks, or none with its functions, or reflectance varies inside
+/// elements
 void require_walks(const System& system, const std::string& solver);
 /// @throws core::InputError  where elements have more than one function
 void require_constants(const System& system, const std::string& solver);

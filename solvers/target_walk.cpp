@@ -38,9 +38,10 @@ SolverReport TargetWalk::shoot(const System& system, SolverState& state, const S
     }
     return batch.finish();
   };
-  const auto prepare = [&](std::uint64_t begin, std::uint64_t end) {
+  const auto prepare = [&](std::uint64_t begin, std::uint64_t end, const RoundStop& stop) {
     Potential potential(system, settings_, run,
-                        potential_rays(system, (end - begin) * static_cast<std::uint64_t>(settings_.replications)));
+                        potential_rays(system, (end - begin) * static_cast<std::uint64_t>(settings_.replications)),
+                        [&] { stop.here(); });
     if (way_ == Way::potential_driven)
       walks.prefer_ways(potential.of_a_walk());
     else

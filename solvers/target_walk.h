@@ -12,8 +12,8 @@ namespace interflect::solvers {
 ///   adjoint            start at what is asked about, i drawn in proportion to |t_i| rho_i, and gather:
 ///                      V_J = T sum_i t_i sum_s (e_s + 2 b_s) b_is - J_r²,  T = sum |t| rho
 ///
-/// The first two find w by rays of their own (potential.h), defensively, and answer for all elements; adjoint walks answer for
-/// what is asked about, all others having infinite standard errors.
+/// The first two find w by rays of their own (potential.h), defensively, and answer for all elements; adjoint walks
+/// answer for what is asked about, all others having infinite standard errors.
 /// Test: tests/solvers/target.cpp
 class TargetWalk final : public RadiositySolver {
  public:

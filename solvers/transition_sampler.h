@@ -8,7 +8,8 @@
 
 namespace interflect::solvers {
 
-/// Rays between points of elements: for functions that are no constants, and for walks that go on from where they arrived.
+/// Rays between points of elements: for functions that are no constants, and for walks that go on from where they
+/// arrived.
 class PointTransitions {
  public:
   struct Point {
@@ -42,7 +43,8 @@ class LineExchanges {
   virtual void along(std::span<const double> u, std::vector<Exchange>& exchanges) const = 0;
 };
 
-/// What random walks see of geometry: where light that leaves an unknown arrives.  Of constants, whose unknowns are elements.
+/// What random walks see of geometry: where light that leaves an unknown arrives.  Of constants, whose unknowns are
+/// elements.
 ///
 ///   P(from_element(i) = j) = F_ij = K_ij / G_i,     nothing: it arrives nowhere, 1 - sum_j F_ij
 class TransitionSampler {

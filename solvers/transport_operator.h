@@ -18,10 +18,14 @@ using ConstColumns = Eigen::Ref<const ColumnMatrix>;
 class RowAccess {
  public:
   virtual ~RowAccess() = default;
-  /// Rows first .. first + count into `out` (count x unknowns).  Reentrant: solvers share a block of rows among threads.
+  /// Rows first .. first + count into `out` (count x unknowns).  Reentrant: solvers share a block of rows among
+  /// threads.
   virtual void rows(Index first, Index count, Columns out) const = 0;
   virtual Index evaluated() const = 0;  ///< rows handed out so far: the work in plots of error against work
 };
+
+class TileAccess;
+class SparseRows;
 
 /// h = G^-1 K b: what arrives when b leaves.  Geometry only: no reflectance and no pi left over.
 ///
@@ -37,6 +41,9 @@ class TransportOperator {
   virtual const RowAccess* rows() const { return nullptr; }
   /// Columns of K, each as a row: what one unknown sends to all.  Solvers that shoot need them.
   virtual const RowAccess* columns() const { return symmetric() ? rows() : nullptr; }
+  /// The same as `rows` of a symmetric K, where it is stored in tiles, or few of its entries are.
+  virtual const TileAccess* tiles() const { return nullptr; }
+  virtual const SparseRows* sparse_rows() const { return nullptr; }
 };
 
 /// b = e + R h per channel; columns as in `Columns`.  Diagonal where reflectance is one number on an element.  Where it

@@ -7,7 +7,8 @@
 
 namespace interflect::fem {
 
-/// What solvers that sample have of K: the areas of elements with constants.  There is no matrix, and no product with it.
+/// What solvers that sample have of K: the areas of elements with constants.  There is no matrix, and no product with
+/// it.
 class AreasAlone final : public solvers::TransportOperator {
  public:
   explicit AreasAlone(std::vector<double> areas)

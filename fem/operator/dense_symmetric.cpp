@@ -9,7 +9,8 @@
 
 #include "core/error.h"
 #include "core/format.h"
-#include "fem/operator/tile_product.h"
+#include "solvers/cache_lines.h"
+#include "solvers/tile_product.h"
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -18,6 +19,7 @@
 namespace interflect::fem {
 namespace {
 
+using solvers::tile_entries, solvers::tile_lanes, solvers::tile_size;
 constexpr Index strip_count = 16;  // more would cost vectors of partial sums, fewer would leave processors idle
 
 /// Pages of zeros, large ones where the system has them.
@@ -35,33 +37,63 @@ double* zeros(Index count) {
   return static_cast<double*>(p);
 }
 
-/// A few columns, padded with zeros to whole tiles and laid out as tile products want them: tile after tile, in it
-/// column after column.
-class TiledColumns {
- public:
-  TiledColumns() = default;
-  TiledColumns(Index tiles, Index columns)
-      : columns_(columns), values_(static_cast<std::size_t>(tiles * columns * tile_size)) {}
-  const double* tile(Index I) const { return values_.data() + I * columns_ * tile_size; }
-  double* tile(Index I) { return values_.data() + I * columns_ * tile_size; }
-  double operator()(Index row, Index c) const { return tile(row / tile_size)[c * tile_size + row % tile_size]; }
-  double& operator()(Index row, Index c) { return tile(row / tile_size)[c * tile_size + row % tile_size]; }
-
- private:
-  Index columns_ = 0;
-  std::vector<double> values_;
-};
-
-/// Columns of a tile, `count` from `K` on, become rows of `to`: in blocks of one cache line to write, and few to read
-/// from.
-void copy_transposed(const double* K, Index count, double* to, Index stride) {
+/// Columns of a tile, `count` from `K` on, become rows of `to`, `width` long: in blocks of one cache line to write, and
+/// few to read from.
+void copy_transposed(const double* K, Index count, Index width, double* to, Index stride) {
   constexpr Index line = 8;
-  for (Index j = 0; j < tile_size; j += line, to += line, K += line * tile_size)
+  for (Index j = 0; j < width; j += line) {
+    const Index block = std::min(line, width - j);
     for (Index i = 0; i < count; ++i)
-      for (Index k = 0; k < line; ++k) to[i * stride + k] = K[k * tile_size + i];
+      for (Index k = 0; k < block; ++k) to[i * stride + j + k] = K[(j + k) * tile_size + i];
+  }
 }
 
 }  // namespace
+
+/// A few columns, padded with zeros to whole tiles: tile after tile, in it column after column.
+class DenseSymmetric::TiledColumns {
+ public:
+  TiledColumns(Index tiles, Index columns) : columns_(columns), values_(tiles * columns * tile_size) {}
+  const double* tile(Index I) const { return values_.data() + I * columns_ * tile_size; }
+  double* tile(Index I) { return values_.data() + I * columns_ * tile_size; }
+  Index columns() const { return columns_; }
+  void set_zero() { values_.set_zero(); }
+  double& operator()(Index row, Index c) { return tile(row / tile_size)[c * tile_size + row % tile_size]; }
+
+ private:
+  Index columns_;
+  solvers::CacheLines values_;
+};
+
+/// What a product needs beside its columns.  A strip of tiles adds to rows of its own and to all before them: it has
+/// sums of its own, up to its last row.
+struct DenseSymmetric::Room {
+  Room(Index tile_rows, std::span<const Strip> strips, Index columns_of_it)
+      : columns(columns_of_it), x(tile_rows, columns) {
+    for (const Strip& strip : strips) sums.emplace_back(strip.end, columns);
+  }
+  Index columns;
+  TiledColumns x;
+  std::vector<TiledColumns> sums;
+};
+
+/// One that no other product is using, of as many columns.
+std::unique_ptr<DenseSymmetric::Room> DenseSymmetric::take_room(Index columns) const {
+  const std::scoped_lock lock(rooms_mutex_);
+  for (std::unique_ptr<Room>& room : rooms_)
+    if (room->columns == columns) {
+      std::swap(room, rooms_.back());
+      std::unique_ptr<Room> taken = std::move(rooms_.back());
+      rooms_.pop_back();
+      return taken;
+    }
+  return std::make_unique<Room>(tile_rows_, strips_, columns);
+}
+
+void DenseSymmetric::give_back(std::unique_ptr<Room> room) const {
+  const std::scoped_lock lock(rooms_mutex_);
+  rooms_.push_back(std::move(room));
+}
 
 void DenseSymmetric::Free::operator()(double* p) const { std::free(p); }
 
@@ -76,7 +108,7 @@ DenseSymmetric::DenseSymmetric(std::vector<double> gram, Index functions)
   for (Index I = 0; I < tile_rows_;) {  // strip s ends where (s + 1) / strip_count of the tiles are passed
     const Index enough = (static_cast<Index>(strips_.size()) + 1) * tiles;
     Index end = I + 1;
-    while (end < tile_rows_ && tile_at(end, end) * strip_count < enough) ++end;
+    while (end < tile_rows_ && tile_at(end, 0) * strip_count < enough) ++end;
     strips_.push_back({I, end});
     I = end;
   }
@@ -98,7 +130,7 @@ float* DenseSymmetric::error_tile(Index at) {
 void DenseSymmetric::add(Index a, Index b, const ExchangeEntry& entry) {
   const auto [K_ab, error, bound] = entry;
   assert(a >= 0 && a < size() && b >= 0 && b < size() && std::isfinite(K_ab) && std::isfinite(error) && bound >= 0);
-  if (a > b) std::swap(a, b);
+  if (a < b) std::swap(a, b);
   const Index I = a / tile_size, J = b / tile_size, i = a % tile_size, j = b % tile_size;
   double* K = tile_data(I, J);
   K[i * tile_size + j] = K_ab;
@@ -111,12 +143,12 @@ void DenseSymmetric::add(Index a, Index b, const ExchangeEntry& entry) {
 }
 
 double DenseSymmetric::entry(Index a, Index b) const {
-  if (a > b) std::swap(a, b);
+  if (a < b) std::swap(a, b);
   return tile_data(a / tile_size, b / tile_size)[a % tile_size * tile_size + b % tile_size];
 }
 
 double DenseSymmetric::entry_standard_error(Index a, Index b) const {
-  if (a > b) std::swap(a, b);
+  if (a < b) std::swap(a, b);
   const float* errors =
       errors_[static_cast<std::size_t>(tile_at(a / tile_size, b / tile_size))].load(std::memory_order_acquire);
   return errors == nullptr ? 0.0 : static_cast<double>(errors[a % tile_size * tile_size + b % tile_size]);
@@ -126,41 +158,52 @@ template <class TileOf>
 void DenseSymmetric::multiply(const TileOf& tile_of, solvers::ConstColumns b, solvers::Columns out, Run& run) const {
   const Index n = size(), columns = b.cols();
   assert(b.rows() == n && out.rows() == n && out.cols() == columns);
-  TiledColumns x(tile_rows_, columns);
+  std::unique_ptr<Room> room = take_room(columns);
   for (Index a = 0; a < n; ++a)
-    for (Index c = 0; c < columns; ++c) x(a, c) = b(a, c);
-
-  // A strip of tiles adds to rows of its own and to all after them: sums of its own, from its first row on.
-  std::vector<TiledColumns> sums(strips_.size());
-  run.threads.for_blocks(static_cast<Index>(strips_.size()), 1, [&](Index s, Index) {
-    const auto [first, end] = strips_[static_cast<std::size_t>(s)];
-    TiledColumns y(tile_rows_ - first, columns);
-    std::vector<double> lanes(static_cast<std::size_t>(columns * tile_size * tile_lanes)), scratch(tile_entries);
-    for (Index I = first; I < end; ++I) {
-      for (Index J = I; J < tile_rows_; ++J) {
-        const double* K = tile_of(tile_at(I, J), scratch.data());
-        if (K == nullptr) continue;
-        const TileColumns at{std::as_const(x).tile(I), std::as_const(x).tile(J), lanes.data(), y.tile(J - first)};
-        I == J ? add_tile(K, columns, at) : add_tile_and_mirror(K, columns, at);
-      }
-      add_lanes(lanes.data(), columns, y.tile(I - first));
-    }
-    sums[static_cast<std::size_t>(s)] = std::move(y);
+    for (Index c = 0; c < columns; ++c) room->x(a, c) = b(a, c);
+  run.threads.for_blocks(strips(), 1, [&](Index s, Index) {
+    multiply_strip(strips_[static_cast<std::size_t>(s)], tile_of, room->x, room->sums[static_cast<std::size_t>(s)]);
   });
-
   run.threads.for_blocks(tile_rows_, 16, [&](Index begin, Index stop) {
-    std::vector<double> of_tile(static_cast<std::size_t>(columns * tile_size));
-    for (Index I = begin; I < stop; ++I) {
-      std::fill(of_tile.begin(), of_tile.end(), 0.0);
-      for (std::size_t s = 0; s < strips_.size() && strips_[s].first <= I; ++s) {
-        const double* part = std::as_const(sums[s]).tile(I - strips_[s].first);
-        for (std::size_t i = 0; i < of_tile.size(); ++i) of_tile[i] += part[i];
-      }
-      for (Index i = 0; i < std::min(tile_size, n - I * tile_size); ++i)
-        for (Index c = 0; c < columns; ++c)
-          out(I * tile_size + i, c) = of_tile[static_cast<std::size_t>(c * tile_size + i)];
-    }
+    for (Index I = begin; I < stop; ++I) add_sums(I, room->sums, out);
   });
+  give_back(std::move(room));
+}
+
+template <class TileOf>
+void DenseSymmetric::multiply_strip(const Strip& strip, const TileOf& tile_of, const TiledColumns& x,
+                                    TiledColumns& sums) const {
+  const Index columns = x.columns();
+  sums.set_zero();
+  solvers::CacheLines lanes(columns * tile_size * tile_lanes), scratch(tile_entries);
+  for (Index I = strip.first; I < strip.end; ++I) {
+    for (Index J = 0; J <= I; ++J) {
+      const double* K = tile_of(tile_at(I, J), scratch.data());
+      if (K == nullptr) continue;
+      solvers::add_products({.rows = tile_size,
+                             .columns = columns,
+                             .stride = tile_size,
+                             .receiving = K,
+                             .x = x.tile(J),
+                             .lanes = lanes.data(),
+                             .sending = I == J ? nullptr : K,  // those on the diagonal are their own mirror
+                             .z = x.tile(I),
+                             .y = sums.tile(J)});
+    }
+    solvers::add_lanes(tile_size, columns, lanes.data(), sums.tile(I), tile_size);
+  }
+}
+
+/// The rows of out that tile row I has, in the order of the strips.
+void DenseSymmetric::add_sums(Index I, std::span<const TiledColumns> sums, solvers::Columns out) const {
+  const Index first = I * tile_size, rows = std::min(tile_size, size() - first), columns = out.cols();
+  out.middleRows(first, rows).setZero();
+  for (std::size_t s = 0; s < strips_.size(); ++s) {
+    if (strips_[s].end <= I) continue;
+    const double* part = sums[s].tile(I);
+    for (Index i = 0; i < rows; ++i)
+      for (Index c = 0; c < columns; ++c) out(first + i, c) += part[c * tile_size + i];
+  }
 }
 
 void DenseSymmetric::apply(solvers::ConstColumns b, solvers::Columns out, Run& run) const {
@@ -186,14 +229,15 @@ void DenseSymmetric::rows(Index first, Index count, solvers::Columns out) const 
   for (Index I = first / tile_size; I * tile_size < end; ++I) {
     const Index begin_i = std::max<Index>(first - I * tile_size, 0), end_i = std::min(end - I * tile_size, tile_size);
     double* to = out.row(I * tile_size + begin_i - first).data();
-    for (Index J = 0; J < I; ++J, to += tile_size)
-      copy_transposed(tile_data(J, I) + begin_i, end_i - begin_i, to, out.outerStride());
-    for (Index J = I; J < tile_rows_; ++J, to += tile_size) {
+    for (Index J = 0; J <= I; ++J, to += tile_size) {
       const std::size_t width = static_cast<std::size_t>(std::min(tile_size, n - J * tile_size)) * sizeof(double);
       const double* K = tile_data(I, J);
       for (Index i = begin_i; i < end_i; ++i)
         std::memcpy(to + (i - begin_i) * out.outerStride(), K + i * tile_size, width);
     }
+    for (Index J = I + 1; J < tile_rows_; ++J, to += tile_size)
+      copy_transposed(tile_data(J, I) + begin_i, end_i - begin_i, std::min(tile_size, n - J * tile_size), to,
+                      out.outerStride());
   }
   evaluated_.fetch_add(count, std::memory_order_relaxed);
 }
@@ -208,9 +252,9 @@ std::span<const StoredPair> DenseSymmetric::pairs_of(Index I, Index J, std::span
   const Index rows = std::min(tile_size, size() - I * tile_size), columns = std::min(tile_size, size() - J * tile_size);
   std::size_t count = 0;
   for (Index i = 0; i < rows; ++i)
-    for (Index j = I == J ? i : 0; j < columns; ++j) {
+    for (Index j = 0; j < (I == J ? i + 1 : columns); ++j) {
       const double error = errors == nullptr ? 0.0 : static_cast<double>(errors[i * tile_size + j]);
-      room[count] = {static_cast<std::uint32_t>(I * tile_size + i), static_cast<std::uint32_t>(J * tile_size + j),
+      room[count] = {static_cast<std::uint32_t>(J * tile_size + j), static_cast<std::uint32_t>(I * tile_size + i),
                      K[i * tile_size + j], error};
       count += K[i * tile_size + j] != 0 || error != 0;
     }
@@ -221,17 +265,17 @@ void DenseSymmetric::visit(Index strip, const Visit& visit) const {
   const auto [first, end] = strips_[static_cast<std::size_t>(strip)];
   std::vector<StoredPair> room(static_cast<std::size_t>(tile_entries) + 1);  // one is written before it counts
   for (Index I = first; I < end; ++I)
-    for (Index J = I; J < tile_rows_; ++J)
+    for (Index J = 0; J <= I; ++J)
       if (const auto pairs = pairs_of(I, J, room); !pairs.empty()) visit(pairs);
 }
 
 void DenseSymmetric::change(const NewEntry& entry, Run& run) {
   run.threads.for_blocks(strips(), 1, [&](Index strip, Index) {
     visit(strip, [&](std::span<const StoredPair> pairs) {
-      const Index I = Index{pairs.front().a} / tile_size, J = Index{pairs.front().b} / tile_size;
+      const Index I = Index{pairs.front().b} / tile_size, J = Index{pairs.front().a} / tile_size;
       double* K = tile_data(I, J);
       for (const StoredPair& pair : pairs) {
-        const Index i = Index{pair.a} - I * tile_size, j = Index{pair.b} - J * tile_size;
+        const Index i = Index{pair.b} - I * tile_size, j = Index{pair.a} - J * tile_size;
         const double K_ab = K[i * tile_size + j] = entry(pair);
         if (I == J) K[j * tile_size + i] = K_ab;
       }

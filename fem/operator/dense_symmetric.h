@@ -2,24 +2,26 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
 #include "fem/operator/symmetric_operator.h"
-#include "fem/operator/tile_product.h"
+#include "solvers/tile_access.h"
 
 namespace interflect::fem {
 
 /// Every entry stored, in doubles, each pair once: 4 N² bytes.
 ///
-/// The upper triangle lies in square tiles, row of tiles after row of tiles, so that one pass over memory serves K_IJ
+/// The lower triangle lies in square tiles, row of tiles after row of tiles, so that one pass over memory serves K_IJ
 /// and its mirror K_JI = K_IJ^T.  Symmetric by construction: there is only one number a pair.
 ///
 /// Standard errors of entries are kept in single precision, in tiles made when an entry in them was sampled: up to 2 N²
 /// bytes more.  Bounds on quadrature errors are not kept: they are at most the tolerance that the method was given.
-class DenseSymmetric final : public SymmetricOperator, public ExchangeSink {
+class DenseSymmetric final : public SymmetricOperator, public solvers::TileAccess, public ExchangeSink {
  public:
-  /// All entries 0.  @param gram  of the unknowns: of constants the elements' areas [m²]  @param functions  of an element
+  /// All entries 0.  @param gram  of the unknowns: of constants the elements' areas [m²]  @param functions  of an
+  /// element
   /// @throws core::InputError  where there is no memory for it
   explicit DenseSymmetric(std::vector<double> gram, Index functions = 1);
   ~DenseSymmetric() override;
@@ -36,6 +38,9 @@ class DenseSymmetric final : public SymmetricOperator, public ExchangeSink {
   using SymmetricOperator::rows;
   void rows(Index first, Index count, solvers::Columns out) const override;
   Index evaluated() const override { return evaluated_.load(std::memory_order_relaxed); }
+
+  const solvers::TileAccess* tiles() const override { return this; }
+  const double* tile(Index I, Index J) const override { return tile_data(I, J); }
 
   double entry(Index a, Index b) const override;
   double entry_standard_error(Index a, Index b) const override;
@@ -54,20 +59,27 @@ class DenseSymmetric final : public SymmetricOperator, public ExchangeSink {
   struct Strip {
     Index first, end;  ///< rows of tiles
   };
+  class TiledColumns;
+  struct Room;
   struct Free {
     void operator()(double* p) const;
   };
 
-  /// Position of tile (I, J), I <= J, among all of them.
-  Index tile_at(Index I, Index J) const { return I * tile_rows_ - I * (I - 1) / 2 + (J - I); }
-  const double* tile_data(Index I, Index J) const { return entries_.get() + tile_at(I, J) * tile_entries; }
-  double* tile_data(Index I, Index J) { return entries_.get() + tile_at(I, J) * tile_entries; }
+  /// Position of tile (I, J), I >= J, among all of them.
+  static Index tile_at(Index I, Index J) { return I * (I + 1) / 2 + J; }
+  const double* tile_data(Index I, Index J) const { return entries_.get() + tile_at(I, J) * solvers::tile_entries; }
+  double* tile_data(Index I, Index J) { return entries_.get() + tile_at(I, J) * solvers::tile_entries; }
   float* error_tile(Index at);
   /// The pairs of a tile that are not 0 without an error, into room for all of them.
   std::span<const StoredPair> pairs_of(Index I, Index J, std::span<StoredPair> room) const;
   /// out = (a symmetric matrix whose tiles `tile_of(at, scratch)` gives) b.
   template <class TileOf>
   void multiply(const TileOf& tile_of, solvers::ConstColumns b, solvers::Columns out, Run& run) const;
+  template <class TileOf>
+  void multiply_strip(const Strip& strip, const TileOf& tile_of, const TiledColumns& x, TiledColumns& sums) const;
+  void add_sums(Index I, std::span<const TiledColumns> sums, solvers::Columns out) const;
+  std::unique_ptr<Room> take_room(Index columns) const;
+  void give_back(std::unique_ptr<Room> room) const;
 
   solvers::Layout layout_;
   std::vector<double> areas_, self_;
@@ -76,6 +88,9 @@ class DenseSymmetric final : public SymmetricOperator, public ExchangeSink {
   std::unique_ptr<double[], Free> entries_;
   std::vector<std::atomic<float*>> errors_;  ///< per tile: null while all of its errors are 0
   mutable std::atomic<Index> evaluated_{0};
+  /// Kept from one product to the next: fresh memory costs more time than what is done with it.
+  mutable std::vector<std::unique_ptr<Room>> rooms_;
+  mutable std::mutex rooms_mutex_;
 };
 
 }  // namespace interflect::fem

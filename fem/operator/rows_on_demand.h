@@ -12,9 +12,9 @@ namespace interflect::fem {
 /// K of constants of which nothing is stored: what an element sends to all others is computed when it is asked for, by
 /// any form-factor method that can be asked for a part of the matrix.
 ///
-/// Methods that go from pair to pair have K_ab = K_ba, the numbers that a stored matrix has.  Of those that see a row at
-/// once, column i is the view from i, K_ai := A_i F_ia: there are no rows then, and K is as symmetric as two views of one
-/// pair agree; a stored matrix joins both.
+/// Methods that go from pair to pair have K_ab = K_ba, the numbers that a stored matrix has.  Of those that see a row
+/// at once, column i is the view from i, K_ai := A_i F_ia: there are no rows then, and K is as symmetric as two views
+/// of one pair agree; a stored matrix joins both.
 ///
 /// Memory: a few numbers an element.  A product costs a column for each element that is not dark.
 /// Test: tests/fem/rows_on_demand.cpp

@@ -130,6 +130,23 @@ void SparseSymmetric::rows(Index first, Index count, solvers::Columns out) const
   evaluated_.fetch_add(count, std::memory_order_relaxed);
 }
 
+void SparseSymmetric::row(Index a, std::vector<solvers::RowEntry>& out) const {
+  out.clear();
+  const Index own = a / panel_rows;
+  const auto first = static_cast<Place>(a * panel_rows), end = static_cast<Place>(first + (panel_rows - 1));
+  for (Index P = 0; P < own; ++P) {  // column a of those before
+    const Panel& p = panel(P);
+    for (auto at = std::lower_bound(p.place.begin(), p.place.end(), first); at != p.place.end() && *at <= end; ++at)
+      out.push_back({P * panel_rows + *at % panel_rows, p.K[static_cast<std::size_t>(at - p.place.begin())]});
+  }
+  const Panel& p = panel(own);
+  for (std::size_t k = 0; k < p.place.size(); ++k) {
+    const Index i = own * panel_rows + p.place[k] % panel_rows, j = p.place[k] / panel_rows;
+    if (j == a || i == a) out.push_back({j == a ? i : j, p.K[k]});
+  }
+  evaluated_.fetch_add(1, std::memory_order_relaxed);
+}
+
 void SparseSymmetric::visit(Index strip, const Visit& visit) const {
   const auto [first, end] = strips_[static_cast<std::size_t>(strip)];
   std::vector<StoredPair> pairs;

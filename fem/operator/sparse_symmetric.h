@@ -10,6 +10,7 @@
 
 #include "fem/operator/panel_product.h"
 #include "fem/operator/symmetric_operator.h"
+#include "solvers/sparse_rows.h"
 
 namespace interflect::fem {
 
@@ -22,7 +23,7 @@ namespace interflect::fem {
 ///
 /// What was left out is known by row and bounded: dropped() is sum_b F_ab over it, and its noise counts in
 /// `apply_variances` with the largest b.  Made by SparseAssembly.
-class SparseSymmetric final : public SymmetricOperator {
+class SparseSymmetric final : public SymmetricOperator, public solvers::SparseRows {
  public:
   const solvers::Layout& layout() const override { return layout_; }
   /// Same bits for any number of threads.
@@ -31,6 +32,8 @@ class SparseSymmetric final : public SymmetricOperator {
   std::span<const double> self() const override { return self_; }
   using SymmetricOperator::rows;
   void rows(Index first, Index count, solvers::Columns out) const override;
+  const solvers::SparseRows* sparse_rows() const override { return this; }
+  void row(Index a, std::vector<solvers::RowEntry>& out) const override;
   Index evaluated() const override { return evaluated_.load(std::memory_order_relaxed); }
 
   double entry(Index a, Index b) const override;

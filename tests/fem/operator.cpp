@@ -110,12 +110,12 @@ TEST(DenseSymmetric, stores_each_pair_once) {
     const double pairs = 4.0 * static_cast<double>(n) * static_cast<double>(n);
     EXPECT_GE(K.bytes(), pairs);
     // What the last tiles and those on the diagonal hold too much: a tile more a row and column.
-    EXPECT_LE(K.bytes(), pairs * std::pow(1 + 2.0 * tile_size / static_cast<double>(n), 2));
+    EXPECT_LE(K.bytes(), pairs * std::pow(1 + 2.0 * solvers::tile_size / static_cast<double>(n), 2));
     EXPECT_FALSE(K.has_errors());
     const double before = K.bytes();
     K.add(0, n - 1, {1, 0.5});
     EXPECT_TRUE(K.has_errors());
-    EXPECT_EQ(K.bytes(), before + 4.0 * tile_size * tile_size) << "errors of one tile";
+    EXPECT_EQ(K.bytes(), before + 4.0 * solvers::tile_size * solvers::tile_size) << "errors of one tile";
   }
 }
 

@@ -60,6 +60,53 @@ TEST(SparseSymmetric, hands_out_entries_errors_and_any_block_of_rows) {
     }
 }
 
+TEST(SparseSymmetric, hands_out_the_entries_of_a_row_that_it_has_in_their_order) {
+  core::LocalRun run(1, 1);
+  const Index n = 200;
+  const OperatorPair pair = random_pair(n, 5, 4, true, true);
+  const auto K = sparse(pair, middle_threshold(pair), run.get());
+  std::vector<solvers::RowEntry> row;
+  for (Index a = 0; a < n; ++a) {
+    K->row(a, row);
+    Index before = -1;
+    Eigen::VectorXd found = Eigen::VectorXd::Zero(n);
+    for (const solvers::RowEntry& entry : row) {
+      EXPECT_GT(entry.unknown, before);
+      before = entry.unknown;
+      found(entry.unknown) = entry.K;
+    }
+    EXPECT_LT(std::ssize(row), n);
+    for (Index b = 0; b < n; ++b) EXPECT_EQ(found(b), K->entry(a, b)) << a << ' ' << b;
+  }
+  EXPECT_EQ(K->evaluated(), n);
+}
+
+// The same entries, stored densely and sparsely: a scan of all unknowns and matches of those that changed take the same
+// steps, so that what comes of them has the same bits.
+TEST(SparseSymmetric, is_shot_from_in_the_steps_that_the_dense_one_is) {
+  const Index n = 333;
+  const OperatorPair pair = random_pair(n, 16, 4, true, true);
+  const solvers::ColumnMatrix e = random_columns(n, 3, 15).cwiseAbs();
+  const solvers::Reflection R(solvers::ColumnMatrix::Constant(n, 3, 0.9));
+  core::LocalRun run(1, 2);
+  const auto K = sparse(pair, middle_threshold(pair), run.get());
+  std::vector<double> areas(pair.areas.data(), pair.areas.data() + n);
+  DenseSymmetric dense(areas);
+  for (Index a = 0; a < n; ++a)
+    for (Index b = a; b < n; ++b) dense.add(a, b, {K->entry(a, b), 0});
+  for (const char* name : {"southwell", "progressive"})
+    for (const int steps : {1, 2, 50, 1000}) {
+      solvers::SolverSettings settings;
+      settings.steps = steps;
+      solvers::SolverState of_dense, of_sparse;
+      const auto of = solvers::make_solver(name, settings);
+      EXPECT_EQ(of->advance({dense, R, e}, of_dense, {1e-12, 3}, run).history,
+                of->advance({*K, R, e}, of_sparse, {1e-12, 3}, run).history);
+      EXPECT_EQ(of_dense.x, of_sparse.x) << name << ' ' << steps;
+      EXPECT_EQ(of_dense.residual, of_sparse.residual) << name << ' ' << steps;
+    }
+}
+
 // Areas over four decades: the threshold is on the larger of both form factors, and what is dropped is counted for both
 // rows.
 TEST(SparseSymmetric, drops_what_is_below_in_both_directions_and_counts_it) {

@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "solvers/solver.h"
+#include "solvers/tile_access.h"
 
 namespace interflect::solvers {
 
@@ -33,6 +34,35 @@ class FullOperator final : public TransportOperator, public RowAccess {
   Eigen::MatrixXd K_;
   Eigen::VectorXd areas_, self_;
   Layout layout_;
+};
+
+/// The same, stored in tiles too.
+class TiledOperator final : public TransportOperator, public TileAccess {
+ public:
+  explicit TiledOperator(const FullOperator& full)
+      : full_(full), tile_rows_((full.matrix().rows() + tile_size - 1) / tile_size) {
+    const Index n = tile_rows_ * tile_size;
+    Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(n, n);
+    padded.topLeftCorner(full.matrix().rows(), full.matrix().rows()) = full.matrix();
+    for (Index I = 0; I < tile_rows_; ++I)
+      for (Index J = 0; J <= I; ++J) tiles_.push_back(padded.block(I * tile_size, J * tile_size, tile_size, tile_size));
+    tiles_.push_back(ColumnMatrix::Zero(tile_size, tile_size));  // what lies behind the last is fetched too
+  }
+  const Layout& layout() const override { return full_.layout(); }
+  bool symmetric() const override { return true; }
+  void apply(ConstColumns b, Columns out, Run& run) const override { full_.apply(b, out, run); }
+  std::span<const double> gram() const override { return full_.gram(); }
+  std::span<const double> self() const override { return full_.self(); }
+  const RowAccess* rows() const override { return full_.rows(); }
+  const TileAccess* tiles() const override { return this; }
+  const double* tile(Index I, Index J) const override {
+    return tiles_[static_cast<std::size_t>(I * (I + 1) / 2 + J)].data();
+  }
+
+ private:
+  const FullOperator& full_;
+  Index tile_rows_;
+  std::vector<ColumnMatrix> tiles_;
 };
 
 /// A random symmetric K with areas over four powers of ten, row sums sum_b K_ab <= A_a, zeros, and a diagonal unless

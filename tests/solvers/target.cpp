@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "core/error.h"
@@ -24,6 +25,21 @@ struct Targeted {
   ColumnMatrix rho, e;
   Reflection R;
   std::vector<double> t;
+};
+
+/// Of another, counted.
+class CountedDraws final : public TransitionSampler {
+ public:
+  explicit CountedDraws(const TransitionSampler& of) : of_(of) {}
+  int dimensions() const override { return of_.dimensions(); }
+  std::optional<Index> from_element(Index i, std::span<const double> u) const override {
+    ++draws;
+    return of_.from_element(i, u);
+  }
+  mutable std::atomic<int> draws = 0;
+
+ private:
+  const TransitionSampler& of_;
 };
 
 /// Unequal areas, an open room, a target of some of the unknowns; what is exact by elimination.
@@ -230,6 +246,24 @@ TEST(Target, is_needed_where_it_is_what_matters) {
     EXPECT_THROW(make_solver(name)->advance({cube.K, *cube.R, cube.e, &cube.walks, short_one}, state, {}, run),
                  core::PreconditionError)
         << name;
+  }
+}
+
+// What light is worth is sought before a round: out of time there too, it draws nothing more.
+TEST(Target, is_given_up_while_worth_is_sought) {
+  const SixFaces cube;
+  const CountedDraws walks(cube.walks);
+  core::LocalRun run;
+  for (const char* name : {"importance-driven-stochastic-jacobi", "optimal-sources", "potential-driven"}) {
+    SolverState state{cube.e};
+    StoppingRule rule;
+    rule.max_seconds = 0;
+    const SolverReport report =
+        make_solver(name)->advance({cube.K, *cube.R, cube.e, &walks, cube.ones}, state, rule, run);
+    EXPECT_EQ(report.why, SolverReport::Stopped::time_limit) << name;
+    EXPECT_EQ(walks.draws, 0) << name;
+    EXPECT_EQ(state.x, cube.e) << name;
+    EXPECT_TRUE(std::isinf(state.target_error(0))) << name;
   }
 }
 

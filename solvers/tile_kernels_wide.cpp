@@ -1,0 +1,7 @@
+#include "solvers/tile_kernels.h"
+
+namespace interflect::solvers {
+
+TileKernels wide_tile_kernels() { return all_kernels(); }
+
+}  // namespace interflect::solvers
