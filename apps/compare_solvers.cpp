@@ -34,7 +34,8 @@ std::string csv_of(const std::vector<SolverScore>& scores) {
   return csv.str();
 }
 
-/// What a solver is judged by.  One number that was sampled is near the truth by luck now and then: it is what is stated then.
+/// What a solver is judged by.  One number that was sampled is near the truth by luck now and then: it is what is
+/// stated then.
 double judged(const SolverScore& score, const SolverScore::At& at, bool of_goal) {
   return of_goal && score.samples ? at.residual : at.error;
 }

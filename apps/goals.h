@@ -21,8 +21,8 @@ std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scen
 results::Record adaptation_record(const fem::Adaptation& adaptation, const scene::Scene& scene);
 
 /// "E_avg(desk) = 312.4 lx, error <= 0.8 lx (0.26 %, estimated)", or with a proved error
-/// "E_avg(desk) = 312.4 lx, error <= 3.1 lx (1 %, guaranteed; estimated 0.8)".  The error is rounded up, and holds of the
-/// number as it is told.
+/// "E_avg(desk) = 312.4 lx, error <= 3.1 lx (1 %, guaranteed; estimated 0.8)".  The error is rounded up, and holds of
+/// the number as it is told.
 std::string goal_line(const std::string& quantity, double value, double error, const char* unit,
                       std::optional<double> proved = {});
 

@@ -42,8 +42,8 @@ struct SolvedScene {
   fem::RadiosityMethod method() const { return {solution, *rays}; }
 };
 
-/// What a solution's energy balance shows to be odd, in sentences: flux on black backs, beyond the noise of the rays that
-/// found it, and form factors and rays that disagree.
+/// What a solution's energy balance shows to be odd, in sentences: flux on black backs, beyond the noise of the rays
+/// that found it, and form factors and rays that disagree.
 std::vector<std::string> energy_warnings(const scene::Scene& scene, const fem::RadiositySolution& solution);
 /// What a solution fell short of: the tolerance of its rows, that of the solver, that of its goal.
 std::vector<std::string> shortfalls_of(const fem::RadiositySolution& solution, const fem::RadiositySettings& settings);

@@ -1,6 +1,6 @@
-// Error against time of constants and of polynomials: L2 of irradiance over all that does not emit, at points, against the
-// iterated solution of quadratic elements; and how long each order takes to 1 %.  Asked for: p = 1 in a fifth of p = 0's
-// time.
+// Error against time of constants and of polynomials: L2 of irradiance over all that does not emit, at points, against
+// the iterated solution of quadratic elements; and how long each order takes to 1 %.  Asked for: p = 1 in a fifth of p
+// = 0's time.
 //
 //   bench_error_against_time [SCENE [ERROR [THREADS]]]      default: data/scenes/office.json 0.01 2
 
@@ -103,8 +103,8 @@ bool fits(const scene::Scene& scene, const fem::RadiositySettings& settings, con
   }
 }
 
-/// Smaller and smaller elements, until the error asked for is passed or there is no memory for more; the time for it by a
-/// power law through the last two: between them, or beyond, which is said.
+/// Smaller and smaller elements, until the error asked for is passed or there is no memory for more; the time for it by
+/// a power law through the last two: between them, or beyond, which is said.
 double time_to(double wanted, int order, double first_size, double ratio, const scene::Scene& scene,
                const std::vector<Sample>& samples, Run& run) {
   std::vector<Trial> trials;

@@ -3,9 +3,9 @@
 // from the record, in the stage's batches; (c) the same, one segment at a time; (d) by a bare Embree loop over packets
 // of eight made beforehand, without any of our code.  Interleaved rounds, medians of CPU time, one thread.
 //
-// And what assembly of constants does beside, all in all: its time less that of as many rays of that stage, by the pairs
-// that exchange something; and, less the unoccluded integrals of near pairs, by those that are farther apart than they
-// are large.
+// And what assembly of constants does beside, all in all: its time less that of as many rays of that stage, by the
+// pairs that exchange something; and, less the unoccluded integrals of near pairs, by those that are farther apart than
+// they are large.
 //
 //   bench_visibility [SCENE [ELEMENTS [RAYS]]]      default: data/scenes/office.json 1500 16
 

@@ -11,7 +11,8 @@ void set_level(Level level);
 void debug(const std::string& message);
 void info(const std::string& message);
 void warning(const std::string& message);
-/// A warning that a quiet run prints too: in what the results fall short of what was asked, where that is its exit status.
+/// A warning that a quiet run prints too: in what the results fall short of what was asked, where that is its exit
+/// status.
 void shortfall(const std::string& message);
 
 }  // namespace interflect::core::log

@@ -83,8 +83,8 @@ class RandomNumbers {
   int used_ = 2;
 };
 
-/// What RandomNumbers(seed, stream, first + k) gives first, of each k after the other: `dimensions` numbers.  Several times
-/// sooner than one by one, since samples share each instruction.
+/// What RandomNumbers(seed, stream, first + k) gives first, of each k after the other: `dimensions` numbers.  Several
+/// times sooner than one by one, since samples share each instruction.
 /// @param u  overwritten; dimensions a sample
 void random_numbers(std::uint64_t seed, std::uint32_t stream, std::uint64_t first, std::size_t dimensions,
                     std::span<double> u);

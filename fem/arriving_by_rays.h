@@ -9,8 +9,8 @@
 
 namespace interflect::fem {
 
-/// sum_j F_ij v_j: what of a field that elements send arrives at each, where there is no matrix, by 64 rays of it.  Of v
-/// between 0 and its largest, standard errors are at most a sixteenth of that.  Same bits for any threads.
+/// sum_j F_ij v_j: what of a field that elements send arrives at each, where there is no matrix, by 64 rays of it.  Of
+/// v between 0 and its largest, standard errors are at most a sixteenth of that.  Same bits for any threads.
 /// @param sent  v, one an element
 /// Test: tests/fem/sampled_radiosity.cpp
 std::vector<Spectrum> arriving_by_rays(const RayTransitions& rays, std::span<const Spectrum> sent, const Run& run);

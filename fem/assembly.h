@@ -15,8 +15,8 @@ PairCounts assemble(const FormFactorMethod& method, std::span<const scene::Surfa
 PairCounts assemble_new(const FormFactorMethod& method, std::span<const scene::SurfacePatch> patches, Index first_new,
                         ExchangeSink& sink, Run& run);
 
-/// K of elements that each consist of four: K_IJ = sum of K_ij over the children i of I and j of J, because K is additive;
-/// without errors, stored as they are.  @param fine  children 4I .. 4I + 3
+/// K of elements that each consist of four: K_IJ = sum of K_ij over the children i of I and j of J, because K is
+/// additive; without errors, stored as they are.  @param fine  children 4I .. 4I + 3
 std::unique_ptr<SymmetricOperator> aggregated(const SymmetricOperator& fine, Run& run);
 
 }  // namespace interflect::fem

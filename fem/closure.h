@@ -66,8 +66,9 @@ std::vector<std::string> closure_names();
 ///
 /// Of a closed scene whoever calls vouches for that; of an open one the environment's column must be there.  K stays as
 /// it was where this throws.
-/// @throws core::InputError  in a sentence: a row of a closed scene, or the correction, beyond the limits of `settings`;
-///                           a row of an open one that is off by more than its errors explain (its bounds and eight
+/// @throws core::InputError  in a sentence: a row of a closed scene, or the correction, beyond the limits of
+///                           `settings`; a row of an open one that is off by more than its errors explain (its bounds
+///                           and eight
 ///                           standard deviations); no matrix with these row sums
 /// Test: tests/fem/closure.cpp, closure_least_squares.cpp, environment_column.cpp
 ClosureReport restore_closure(SymmetricOperator& K, Run& run, const ClosureSettings& settings = {});

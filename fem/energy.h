@@ -19,8 +19,8 @@ struct LostRays {
 LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
                         std::span<const Spectrum> radiosity, const raycast::RayCaster& rays, Run& run);
 
-/// The balance of a solution whose radiosity, irradiance and row sums are there; without row sums rays alone say what is
-/// lost, and the residual is the noise of both.
+/// The balance of a solution whose radiosity, irradiance and row sums are there; without row sums rays alone say what
+/// is lost, and the residual is the noise of both.
 EnergyBalance energy_balance(const RadiositySolution& solution, const LostRays& lost);
 
 }  // namespace interflect::fem

@@ -9,8 +9,8 @@
 
 namespace interflect::fem {
 
-/// F_a,env: what leaves element a and reaches no other, through openings, onto black backs or surfaces without elements;
-/// sum_b F_ab + F_a,env = 1.
+/// F_a,env: what leaves element a and reaches no other, through openings, onto black backs or surfaces without
+/// elements; sum_b F_ab + F_a,env = 1.
 struct EnvironmentColumn {
   std::vector<double> factor;          ///< in [0, 1]
   std::vector<double> standard_error;  ///< never 0

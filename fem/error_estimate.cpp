@@ -82,8 +82,8 @@ SampledNoise sampled_noise(const RadiositySolution& s, const SymmetricOperator& 
   return noise;
 }
 
-/// v_i + sum_j ((F_ij rho_j)² v_j + 2 e_ij² B_j F_ij rho_j B_i / (A_i A_j)): one bounce more, by way of j, of noise that
-/// is independent but for that of K_ij = K_ji, which both bounces have.
+/// v_i + sum_j ((F_ij rho_j)² v_j + 2 e_ij² B_j F_ij rho_j B_i / (A_i A_j)): one bounce more, by way of j, of noise
+/// that is independent but for that of K_ij = K_ji, which both bounces have.
 /// @param variance  of irradiance, and coefficients of radiosity: unknowns x channels
 solvers::ColumnMatrix with_next_bounce(const SymmetricOperator& K, const solvers::ColumnMatrix& variance,
                                        const solvers::ColumnMatrix& reflectance, const solvers::ColumnMatrix& B,
@@ -248,8 +248,8 @@ Spectrum irradiance_variation(const RadiositySolution& s, std::size_t element) {
   return sqrt(sum / 3.0);
 }
 
-/// The variation of irradiance inside an element, less what independent noise of siblings makes of it: (1 - 1/4) / 3 of its
-/// variance.
+/// The variation of irradiance inside an element, less what independent noise of siblings makes of it: (1 - 1/4) / 3 of
+/// its variance.
 static Spectrum variation_without_noise(const RadiositySolution& s, std::size_t i) {
   const Spectrum variation = irradiance_variation(s, i), noise = .25 * s.own_variance(i);
   return (variation * variation - noise).map([](double square) { return std::sqrt(std::max(0.0, square)); });

@@ -42,9 +42,9 @@ double bytes_at_nodes(double elements, const RadiositySettings& settings, double
 
 /// @param settings  of the order that blocks have (order_of_blocks)
 ///
-/// Of polynomials K of constants and of all functions; else K and its errors (8 and at most 4 bytes a pair), with the coarse mesh's K (a sixteenth of its entries); sparse: at
-/// most N / drop_below pairs of 20 bytes while they come, 16 afterwards, and a coarse K of as many entries or a
-/// sixteenth of all.  And what each element carries.
+/// Of polynomials K of constants and of all functions; else K and its errors (8 and at most 4 bytes a pair), with the
+/// coarse mesh's K (a sixteenth of its entries); sparse: at most N / drop_below pairs of 20 bytes while they come, 16
+/// afterwards, and a coarse K of as many entries or a sixteenth of all.  And what each element carries.
 double predicted_bytes(double elements, const RadiositySettings& settings, Granularity granularity) {
   const double pairs = 0.5 * elements * elements, on_the_way = pairs * bytes_a_pair_on_the_way(granularity),
                others = bytes_an_element * elements;

@@ -33,7 +33,8 @@ struct Gathered {
 /// in proportion to what an element may contribute.
 class Gather {
  public:
-  /// All of it outlives the gather.  @param rays_per_point  to be shared by the elements that need them; each gets 4 at least
+  /// All of it outlives the gather.  @param rays_per_point  to be shared by the elements that need them; each gets 4 at
+  /// least
   Gather(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
          std::uint64_t seed, int rays_per_point = 4096);
 

@@ -11,9 +11,10 @@ namespace interflect::fem {
 ///
 ///   error_i = (1 + sqrt 2) | sum_j F_ij rho_j g_j . (p_ij - c_j) |  +  sum_j F_ij rho_j H_j max(0, 1 - 6 f_ij)
 ///
-/// over the near j, |c_i - c_j| < 1.5 (r_i + r_j).  g_j is the gradient of irradiance at j (least squares over its parent's four
-/// children), c_j the centroid of j, p_ij its centroid as i sees it and f_ij the fraction of it that i sees: with the weights w that
-/// Lambert's formula gives the 16 parts of j from c_i,  p = sum w c / sum w,  f = (sum w)² / (16 sum w²).
+/// over the near j, |c_i - c_j| < 1.5 (r_i + r_j).  g_j is the gradient of irradiance at j (least squares over its
+/// parent's four children), c_j the centroid of j, p_ij its centroid as i sees it and f_ij the fraction of it that i
+/// sees: with the weights w that Lambert's formula gives the 16 parts of j from c_i,  p = sum w c / sum w,  f = (sum
+/// w)² / (16 sum w²).
 ///
 /// Radiosity that varies inside a distant element averages out, since the kernel hardly varies over it: that part falls
 /// as h² and halving the elements shows it.  Beside a common edge it does not: i sees the near end of j only, and

@@ -14,8 +14,8 @@ struct PolynomialChange {
   std::vector<Spectrum> variation;        ///< of irradiance: root mean square of functions of the highest degree
 };
 
-/// Solves for polynomials with the blocks of K, or at nodes where settings say so: sets the solution's field, its radiosity and irradiance (means), its
-/// coarse_radiosity (those of the order below) and the solver's report.
+/// Solves for polynomials with the blocks of K, or at nodes where settings say so: sets the solution's field, its
+/// radiosity and irradiance (means), its coarse_radiosity (those of the order below) and the solver's report.
 ///
 /// @param blocks  K of all unknowns, element after element
 /// @param degree  of polynomials on elements, 1 .. settings.order; empty: the order, all

@@ -54,8 +54,8 @@ class Approach {
   core::Progress::Stage stage_;
 };
 
-/// Of the mean over all elements, sqrt(2 sum A² v) / sum A: not below what any sharing of pairs makes of it, since (e B_i +
-/// e B_j)² <= 2 e² (B_i² + B_j²).
+/// Of the mean over all elements, sqrt(2 sum A² v) / sum A: not below what any sharing of pairs makes of it, since (e
+/// B_i + e B_j)² <= 2 e² (B_i² + B_j²).
 Spectrum noise_of_mean(const mesh::ElementMesh& mesh, std::span<const Spectrum> variance) {
   Spectrum sum;
   double area = 0;
@@ -97,8 +97,8 @@ double ProgressiveRadiosity::unshot_fraction(const Shots& shots) const {
   return solvers::unshot_fraction(system_, shots.state.residual);
 }
 
-/// The last shot's d = x - x before it brings K_ai / A_a d to all a.  Errors of a pair are the same in every shot, so that they go
-/// with the whole of x.
+/// The last shot's d = x - x before it brings K_ai / A_a d to all a.  Errors of a pair are the same in every shot, so
+/// that they go with the whole of x.
 void ProgressiveRadiosity::take(Shots& shots, ColumnMatrix& shot_before) const {
   const RowsOnDemand::Column& column = K_.last();
   if (column.of < 0) return;

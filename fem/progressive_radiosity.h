@@ -19,9 +19,9 @@ struct Shots {
   Index count() const { return state.step; }
 };
 
-/// Progressive refinement of a scene without a matrix (solvers/progressive.h, or southwell.h): an element shoots by what it
-/// sends to all others, which is computed for that shot alone (operator/rows_on_demand.h).  What there is may be looked
-/// at after every shot, and gone on from, to the same bits.
+/// Progressive refinement of a scene without a matrix (solvers/progressive.h, or southwell.h): an element shoots by
+/// what it sends to all others, which is computed for that shot alone (operator/rows_on_demand.h).  What there is may
+/// be looked at after every shot, and gone on from, to the same bits.
 /// Test: tests/fem/progressive_radiosity.cpp
 class ProgressiveRadiosity {
  public:
@@ -35,8 +35,8 @@ class ProgressiveRadiosity {
   Index emitting() const;  ///< elements that emit
 
   Shots begin() const;  ///< nothing is shot yet
-  /// Goes on until the settings' StoppingRule is met: `unshot`, and `tolerance` on the residual; or until the run is asked
-  /// to stop.
+  /// Goes on until the settings' StoppingRule is met: `unshot`, and `tolerance` on the residual; or until the run is
+  /// asked to stop.
   /// @param look  at what there is, after every shot
   /// @throws core::InputError  where a row adds up to more than it can (row_sum_check.h)
   solvers::SolverReport advance(Shots& shots, const std::function<void(const Shots&)>& look);
@@ -46,10 +46,10 @@ class ProgressiveRadiosity {
   /// What is shown: B = x + r + rho Amb and H = G^-1 K x + Amb, with the ambient term of all that is unshot.
   ///
   /// Its error is an estimate, the sum of |Amb|, which only stands for light that is still on its way; of the bounds of
-  /// form factors, over 1 - mean rho; and, since no matrix tells what halving the elements would change, of what irradiance
-  /// varies by inside the element, and radiosity in the mean of all elements, over 1 - mean rho.
-  /// Its noise is that of the form factors, and at most sqrt(2) rho / (1 - rho) times that of the mean in all elements alike, as if
-  /// no two shared a pair (error_estimate.h).
+  /// form factors, over 1 - mean rho; and, since no matrix tells what halving the elements would change, of what
+  /// irradiance varies by inside the element, and radiosity in the mean of all elements, over 1 - mean rho.
+  /// Its noise is that of the form factors, and at most sqrt(2) rho / (1 - rho) times that of the mean in all elements
+  /// alike, as if no two shared a pair (error_estimate.h).
   RadiositySolution shown(const Shots& shots, const solvers::SolverReport& report) const;
 
  private:

@@ -49,7 +49,8 @@ struct RulePair {
 /// 1 <= points <= 4.
 RulePair rules_of(int points);
 
-/// Position at (u, v): affine on two corners (by u alone) and three, bilinear on four, as mesh::ElementPoint counts them.
+/// Position at (u, v): affine on two corners (by u alone) and three, bilinear on four, as mesh::ElementPoint counts
+/// them.
 Vec3 point_on(std::span<const Vec3> ring, double u, double v);
 
 /// |d position / du x d position / dv| [m²]; on a triangle twice its area; on a segment its length [m].

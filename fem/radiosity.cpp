@@ -60,8 +60,8 @@ RowSums summary_of(std::span<const double> row_sums, std::span<const double> are
   return rows;
 }
 
-/// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.  A
-/// solve that is stopped ends with what it has, and nothing is asked of larger elements then.
+/// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance. 
+/// A solve that is stopped ends with what it has, and nothing is asked of larger elements then.
 /// @return  whether both solves converged
 bool solve_both(RadiositySolution& s, const scene::Scene& scene, const SymmetricOperator& K,
                 const RadiositySettings& settings, Run& run) {

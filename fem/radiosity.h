@@ -100,8 +100,8 @@ struct RowSums {
   double mean = 0, lowest = 0, highest = 0;  ///< of sum_j F_ij; 1 in a closed scene
 };
 
-/// A solved scene: constants on elements, or means of polynomials on them (`field`), all per element in the order of the
-/// mesh.
+/// A solved scene: constants on elements, or means of polynomials on them (`field`), all per element in the order of
+/// the mesh.
 struct RadiositySolution {
   RadiositySolution(mesh::ElementMesh elements, double longest_edge)
       : mesh(std::move(elements)), element_size(longest_edge) {}

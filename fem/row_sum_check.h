@@ -7,9 +7,9 @@
 
 namespace interflect::fem {
 
-/// What leaves an element arrives once at most, sum_j F_ij <= 1, but for what entries err by: where a row adds up to more
-/// than 1.1 beyond four of its standard errors, it is none of view factors, and a solve by it is worth nothing (rho times
-/// the sum may exceed 1, so that light would grow from bounce to bounce).
+/// What leaves an element arrives once at most, sum_j F_ij <= 1, but for what entries err by: where a row adds up to
+/// more than 1.1 beyond four of its standard errors, it is none of view factors, and a solve by it is worth nothing
+/// (rho times the sum may exceed 1, so that light would grow from bounce to bounce).
 /// @param row_sum  of K
 /// @throws core::InputError  naming the surface
 void require_row_sums(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,

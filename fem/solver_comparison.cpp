@@ -52,7 +52,8 @@ class Equations {
   }
 
  private:
-  /// t of J = sum t b: what is wanted of B, and what is of H, A_i H_i = sum_b K_ib b_b with the first functions of elements.
+  /// t of J = sum t b: what is wanted of B, and what is of H, A_i H_i = sum_b K_ib b_b with the first functions of
+  /// elements.
   std::vector<double> target_of(const GoalWeights& weights, Run& run) const {
     if (nodes_) throw core::InputError("--goal", "values at nodes have none; --projection galerkin would do");
     std::vector<double> target = weights.direct;

@@ -45,8 +45,8 @@ struct ThermalExchange {
 /// radiosity of exitances e sigma (T^4 - T_0^4) and q in a cold environment, shifted by sigma T_0^4, since a uniform
 /// field is a solution.
 /// @param settings  as of a solve; elements as there
-/// @throws core::InputError  a scene of more than one channel, a photometric one, a material without `emissivity`, or heat fluxes alone in a
-///                           closed scene, which have no answer
+/// @throws core::InputError  a scene of more than one channel, a photometric one, a material without `emissivity`, or
+///                           heat fluxes alone in a closed scene, which have no answer
 ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySettings& settings, double environment,
                                Run& run);
 

@@ -47,7 +47,8 @@ void BoxGrid::sort_by_overlap(std::span<const Box> boxes) {
       }
 }
 
-/// Twice as many along each axis as boxes fit there, so that the first one of a cell often holds all of it, but not eight times as many as there are boxes.
+/// Twice as many along each axis as boxes fit there, so that the first one of a cell often holds all of it, but not
+/// eight times as many as there are boxes.
 void BoxGrid::choose_cells(const Box& all, const Vec3& mean_sides, double boxes) {
   Vec3 count;
   for (int axis = 0; axis < 3; ++axis)

@@ -9,8 +9,8 @@
 
 namespace interflect::geometry {
 
-/// Boxes in the cells of a uniform grid, about half as large as boxes are in the mean: which boxes may hold a point, at once.
-/// For many boxes of like sizes, as elements of a surface have; a tree (box_tree.h) does for others.
+/// Boxes in the cells of a uniform grid, about half as large as boxes are in the mean: which boxes may hold a point, at
+/// once. For many boxes of like sizes, as elements of a surface have; a tree (box_tree.h) does for others.
 class BoxGrid {
  public:
   BoxGrid() = default;

@@ -26,7 +26,8 @@ class Shaft {
  public:
   static constexpr int most_corners = 6;  ///< of either polygon: a quad after two clips
 
-  /// @param a, b      convex rings, 3 .. most_corners corners [m], counter-clockwise around the sides that exchange light
+  /// @param a, b      convex rings, 3 .. most_corners corners [m], counter-clockwise around the sides that exchange
+  /// light
   /// @param rounding  of corners, theirs and the triangles' [m]
   Shaft(std::span<const Vec3> a, std::span<const Vec3> b, double rounding = 0);
 

@@ -10,8 +10,8 @@
 
 namespace interflect::mesh {
 
-/// Points of one side of a surface by their place, bit for bit, and by the normal of the elements that share them: where
-/// normals differ by more than 20 degrees there is a sharp edge, and nothing is shared.
+/// Points of one side of a surface by their place, bit for bit, and by the normal of the elements that share them:
+/// where normals differ by more than 20 degrees there is a sharp edge, and nothing is shared.
 class SharedPoints {
  public:
   std::optional<std::uint32_t> find(const Vec3& p, const Vec3& normal) const;

@@ -12,8 +12,8 @@ namespace interflect::mesh {
 /// Elements as quadratic triangles, for looking: what is given at their points is continuous over each side of a
 /// surface, but for its sharp edges.
 ///
-/// A fan about an element's centroid goes through its corners and through all that hang on its edges, so that both sides
-/// of an edge have the same points, and no cracks.
+/// A fan about an element's centroid goes through its corners and through all that hang on its edges, so that both
+/// sides of an edge have the same points, and no cracks.
 struct SmoothMesh {
   using Triangle = std::array<std::uint32_t, 6>;  ///< points: three corners, then the middles of 01, 12 and 20
 

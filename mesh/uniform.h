@@ -11,8 +11,7 @@ namespace interflect::mesh {
 /// facets of mesh files, and of polygons with a corner below a degree, are bisected at their longest edge, with their
 /// neighbours, so that the surface stays conforming [Rivara 1984].
 /// @throws core::InputError  in one line where max_edge is no positive length, where it makes more than 2^31 elements,
-/// and
-///                           where an element is too thin for its coordinates, naming its surface and place
+///                           and where an element is too thin for its coordinates, naming its surface and place
 ElementMesh uniform(const scene::Scene& scene, double max_edge);
 
 /// As few elements as there can be: a surface that is a triangle or a convex quad is one, another planar polygon its
@@ -20,8 +19,8 @@ ElementMesh uniform(const scene::Scene& scene, double max_edge);
 /// @throws core::InputError  as `uniform`, where an element is too thin for its coordinates
 ElementMesh whole_faces(const scene::Scene& scene);
 
-/// Whole faces, those with an edge longer than `max_edge` [m] cut into four again and again: few elements, whose corners
-/// may hang, and more than `uniform` makes of a needle.
+/// Whole faces, those with an edge longer than `max_edge` [m] cut into four again and again: few elements, whose
+/// corners may hang, and more than `uniform` makes of a needle.
 /// @throws core::InputError  as `uniform`
 ElementMesh coarse(const scene::Scene& scene, double max_edge);
 

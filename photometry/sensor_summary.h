@@ -19,8 +19,9 @@ struct SensorSummary {
   /// Of the mean: the mean error bound and normal_95 standard errors of the mean; points are taken as independent in
   /// noise.
   double error = 0;
-  /// Of the least and the largest, by all points: each may be off by its error bound and normal_95 standard errors, and the
-  /// least of the truth is between the least of what they may be at least and the least of what they may be at most.
+  /// Of the least and the largest, by all points: each may be off by its error bound and normal_95 standard errors, and
+  /// the least of the truth is between the least of what they may be at least and the least of what they may be at
+  /// most.
   double minimum_error = 0, maximum_error = 0;
   double uniformity() const { return mean > 0 ? minimum / mean : 0; }  ///< U0 = E_min / E_avg
   /// By the errors of both at their worst; infinite where the mean may be 0.

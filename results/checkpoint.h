@@ -31,9 +31,10 @@ std::string system_digest(const std::string& of_geometry, const solvers::System&
 /// @throws core::InputError  it cannot be written
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// @param expected  its digest, settings, and the names of its matrices with their sizes (values do not count; 0 rows: any
-///                  number of them)
-/// @throws core::InputError  in one line: there is none; none of ours, or damaged; of another scene, or of other settings
+/// @param expected  its digest, settings, and the names of its matrices with their sizes (values do not count; 0 rows:
+///                  any number of them)
+/// @throws core::InputError  in one line: there is none; none of ours, or damaged; of another scene, or of other
+/// settings
 Checkpoint read_checkpoint(const std::filesystem::path& file, const Checkpoint& expected);
 
 }  // namespace interflect::results

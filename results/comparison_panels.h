@@ -13,9 +13,11 @@ struct ComparisonPanels {
 };
 
 /// @param fem, traced  radiance in the scene's channels, of one size
-/// @param noise        standard error of `traced`, pixels independent; not finite where unknown, which counts as noise alone
-/// @param full_scale   relative difference at full colour.  It is of the weighted radiance, averaged over blocks of 6 x 6 pixels, for
-///                     a single traced pixel is noise; what is below three standard errors of the block's mean stays white
+/// @param noise        standard error of `traced`, pixels independent; not finite where unknown, which counts as noise
+/// alone
+/// @param full_scale   relative difference at full colour.  It is of the weighted radiance, averaged over blocks of 6 x
+///                     6 pixels, for a single traced pixel is noise; what is below three standard errors of the block's
+///                     mean stays white
 ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
                                    const core::Image& noise, double full_scale);
 

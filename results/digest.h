@@ -7,8 +7,8 @@
 
 namespace interflect::results {
 
-/// 32 hexadecimal digits that stand for a list of numbers: the same for the same bits in the same order, and for practical
-/// purposes for no others.  It guards against mistakes, not against malice.
+/// 32 hexadecimal digits that stand for a list of numbers: the same for the same bits in the same order, and for
+/// practical purposes for no others.  It guards against mistakes, not against malice.
 ///
 /// Two lanes of 64 bits, each word stirred into both: MurmurHash3's finaliser over a multiply-and-rotate chain.
 class Digest {

@@ -14,7 +14,8 @@ namespace interflect::results {
 
 /// NumPy: F, error (n x n), area, row_sum, row_error (n), normal, centroid (n x 3), name (n); and of S points sensor_F,
 /// sensor_error (S x n), sensor_row_sum, sensor_row_error, sensor_name, sensor_index (S), sensor_position,
-/// sensor_normal (S x 3); environment, environment_error, closure_change (n) where there are such.  Asks for the rows twice.
+/// sensor_normal (S x 3); environment, environment_error, closure_change (n) where there are such.  Asks for the rows
+/// twice.
 void write_factors_npz(const std::filesystem::path& file, const FactorElements& elements, const FactorRows& rows,
                        const PointFactors& points = {});
 

@@ -83,7 +83,8 @@ class Hdf5File {
   std::int64_t file_;
 };
 
-/// A file that is there whole or not at all: filled under another name, which is renamed; a fill that fails leaves nothing.
+/// A file that is there whole or not at all: filled under another name, which is renamed; a fill that fails leaves
+/// nothing.
 /// @throws core::InputError  it cannot be written
 void write_whole(const std::filesystem::path& file, const Hdf5File::Room& room,
                  const std::function<void(Hdf5File&)>& fill);

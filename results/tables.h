@@ -35,8 +35,8 @@ std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::Ele
 SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side,
                        const Estimate& irradiance);
 
-/// `name,area,radiosity_0,..,irradiance_0,..,error_0,..,radiosity,irradiance,error`, a line a row: of each channel of the
-/// scene, and weighed over them (lx).
+/// `name,area,radiosity_0,..,irradiance_0,..,error_0,..,radiosity,irradiance,error`, a line a row: of each channel of
+/// the scene, and weighed over them (lx).
 std::string surfaces_csv(std::span<const SurfaceRow> rows, const scene::Scene& scene);
 void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, const scene::Scene& scene);
 

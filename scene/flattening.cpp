@@ -41,7 +41,8 @@ bool is_bent(const PlanarPolygon& polygon) {
   return !is_triangle(polygon) && geometry::relative_planarity_error(polygon) > flat;
 }
 
-/// The shortest step from x to planes; where they have no common point, to where the squares of the distances are least.
+/// The shortest step from x to planes; where they have no common point, to where the squares of the distances are
+/// least.
 Vec3 step_to(const std::vector<LocalPlane>& planes, const Vec3& x) {
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   Vec3 pull = Vec3::Zero(), step = Vec3::Zero();

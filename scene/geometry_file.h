@@ -62,7 +62,8 @@ struct GeometryOptions {
 /// the group has one face), of a neutral material: reflectance 0.5, no exitance.  A .vs3 surface keeps its name, and
 /// the reflectance is what its emittance leaves; parts that subsurfaces, masks and null surfaces cover are cut out of
 /// it.  A scene file stays as it is.
-/// @throws core::InputError  "FILE: .." or "FILE:LINE: ..": anything that is not such a file, or a name that it does not have
+/// @throws core::InputError  "FILE: .." or "FILE:LINE: ..": anything that is not such a file, or a name that it does
+/// not have
 ExchangeScene read_geometry_as_scene(const std::filesystem::path& file, const GeometryOptions& options = {});
 
 }  // namespace interflect::scene

@@ -104,8 +104,8 @@ void draw_axes(Canvas& canvas, const Frame& frame, const Plot& plot) {
   canvas.text(plot.x_label, (left + width - right) / 2, height - 14, 13, true);
 }
 
-/// Dots and rings by turns: neighbours of a list may lie on each other, and both show then.  Curves that have one colour
-/// have different ones.
+/// Dots and rings by turns: neighbours of a list may lie on each other, and both show then.  Curves that have one
+/// colour have different ones.
 void draw_marker(Canvas& canvas, double x, double y, std::size_t curve, Colour colour) {
   if ((curve + curve / palette.size()) % 2 == 0)
     canvas.dot(x, y, 4, colour);

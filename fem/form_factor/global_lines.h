@@ -12,8 +12,8 @@ namespace interflect::fem {
 
 /// Form factors of all pairs at once, by lines through everything [Sbert 1993, 1996].
 ///
-/// Lines are uniform as integral geometry has them, and each exchange along one (lines_through.h) is used both ways.  With N_ij
-/// of them among N lines,
+/// Lines are uniform as integral geometry has them, and each exchange along one (lines_through.h) is used both ways. 
+/// With N_ij of them among N lines,
 ///
 ///   K_ij = 2 pi R² N_ij / N
 ///

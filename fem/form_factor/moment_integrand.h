@@ -15,8 +15,8 @@ using Moments =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, PlaneBasis::most_functions, PlaneBasis::most_functions>;
 
 /// N_a(x) times the irradiance at x from parts of an element whose radiosity is N_b: what is integrated over the
-/// receiving one.  Of near parts in closed form (polynomial_emitter.h), of far ones by rules, if that is accurate enough
-/// (distant_emitter.h).
+/// receiving one.  Of near parts in closed form (polynomial_emitter.h), of far ones by rules, if that is accurate
+/// enough (distant_emitter.h).
 class MomentIntegrand {
  public:
   using Value = Moments;

@@ -8,8 +8,8 @@
 
 namespace interflect::fem {
 
-/// Blocks of K of polynomials on elements, of one order or of degrees of their own: a pair has the functions of the higher
-/// degree of its elements.
+/// Blocks of K of polynomials on elements, of one order or of degrees of their own: a pair has the functions of the
+/// higher degree of its elements.
 class MomentsByDegree {
  public:
   /// @param context  of an order of 1 .. 3, and degrees of 1 .. order if any

@@ -18,7 +18,8 @@ struct PairMoments {
 
 /// Blocks of K of polynomials on pairs of elements, as if nothing lay between:
 ///
-/// 1. pairs that are apart by a product rule on both elements, with as many nodes more than constants need (far_field.h)
+/// 1. pairs that are apart by a product rule on both elements, with as many nodes more than constants need
+/// (far_field.h)
 ///    as the polynomials take of its degrees, up to 7 a side.  The error is taken from the difference to the rule with
 ///    one node a side less, of which what Bernstein's ellipse knows is left, by how far they are apart and how long.
 /// 2. others by the closed form for one point (polynomial_emitter.h) inside and adaptive cells of Gauss rules outside

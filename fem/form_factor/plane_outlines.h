@@ -10,8 +10,8 @@
 
 namespace interflect::fem {
 
-/// Elements of a plane by their edges in it, in single precision and a line of cache each: which one surely holds a point,
-/// but for points so close to an edge that this cannot be told.
+/// Elements of a plane by their edges in it, in single precision and a line of cache each: which one surely holds a
+/// point, but for points so close to an edge that this cannot be told.
 class PlaneOutlines {
  public:
   /// @param patches  that do not overlap

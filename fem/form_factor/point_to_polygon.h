@@ -17,8 +17,9 @@ namespace interflect::fem {
 /// @param polygon  corners [m], planar and convex, either orientation, 3 .. 8 of them
 /// @return         in [0, 1], dimensionless; 0 where x lies in the polygon's plane
 /// @throws core::PreconditionError  beyond 8 corners
-/// Accuracy: relative about 1e-16 distance / (diameter cos): the terms are of the size of the angles, their sum is smaller by
-/// cos diameter / distance.  (Taking e_k and not r_{k+1} in the cross product saves another factor distance / diameter.)
+/// Accuracy: relative about 1e-16 distance / (diameter cos): the terms are of the size of the angles, their sum is
+/// smaller by cos diameter / distance.  (Taking e_k and not r_{k+1} in the cross product saves another factor distance
+/// / diameter.)
 /// Source: [Lambert 1760], for form factors by [Baum 1989] equation (6).  Test: tests/fem/point_to_polygon.cpp
 double point_to_polygon(const Vec3& x, const Vec3& n, std::span<const Vec3> polygon);
 

@@ -26,8 +26,8 @@ namespace interflect::fem {
 ///
 ///   J_00 = sum over edges of  sign(d) / 2 [ -phi ln q - Im Li2(-q e^{2 i phi}) + Im Li2(-e^{2 i phi}) ]
 ///
-/// Normalisation: pi is inside, no reflectance.  Linear radiosity has this dilogarithm (as Clausen's integral) in [Chen,
-/// Arvo 2000]; the derivation here is our own.
+/// Normalisation: pi is inside, no reflectance.  Linear radiosity has this dilogarithm (as Clausen's integral) in
+/// [Chen, Arvo 2000]; the derivation here is our own.
 ///
 /// @param x, n     receiving point [m] and unit normal; no corner lies behind its horizon
 /// @param polygon  corners [m], in the frame's plane, convex, counter-clockwise from x's side; 3 .. 16 of them

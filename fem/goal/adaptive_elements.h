@@ -14,8 +14,8 @@ struct AdaptedElements {
   Adaptation adaptation;
 };
 
-/// What it starts with: coarse, but not so coarse that a pass sees nothing of the room; elements as they are where there
-/// is no target.
+/// What it starts with: coarse, but not so coarse that a pass sees nothing of the room; elements as they are where
+/// there is no target.
 mesh::ElementMesh first_elements(const scene::Scene& scene, const RadiositySettings& settings,
                                  const AdaptiveSettings& adaptive);
 

@@ -47,9 +47,9 @@ struct DualWeighted {
 /// functions of degree up to 3, since points and pixels have no density of their own.  The error of z in its place is
 /// one bounce of the importance's own residual, which is smaller as the iterated solution is than B_h.
 ///
-/// Where both are smooth inside an element their coefficients in orthonormal polynomials fall like exp(-s degree), and a
-/// higher degree pays; along shadows' edges they fall like a power of it, and cuts pay [Mavriplis 1994; Houston, Sueli
-/// 2005].  With c_k the root of the sum of squares of T B_h's coefficients of degree k, and d_k of T w_h's,
+/// Where both are smooth inside an element their coefficients in orthonormal polynomials fall like exp(-s degree), and
+/// a higher degree pays; along shadows' edges they fall like a power of it, and cuts pay [Mavriplis 1994; Houston,
+/// Sueli 2005].  With c_k the root of the sum of squares of T B_h's coefficients of degree k, and d_k of T w_h's,
 ///
 ///   decay = 1/2 ln (c_1 / c_3) + 1/2 ln (d_1 / d_3),
 ///

@@ -18,8 +18,8 @@ struct ElementNodes {
 /// @param points  across an element, 1 .. 4 (rules_of)
 ElementNodes element_nodes(std::span<const scene::SurfacePatch> patches, int points);
 
-/// (T b)(x) = int k(x, y) b(y) dy at every node, of polynomials b on elements: what Sloan's iteration E + rho T b needs,
-/// past whatever hides, and as accurate as `factors` are (point_view_factors.h).
+/// (T b)(x) = int k(x, y) b(y) dy at every node, of polynomials b on elements: what Sloan's iteration E + rho T b
+/// needs, past whatever hides, and as accurate as `factors` are (point_view_factors.h).
 ///
 /// @param b  unknowns of `factors`, element after element, x columns
 /// @return   nodes x columns

@@ -11,7 +11,8 @@ namespace interflect::fem {
 constexpr int segment_functions(int order) { return order + 1; }
 constexpr int plane_functions(int order) { return (order + 1) * (order + 2) / 2; }
 
-/// sqrt(2i + 1) P_i(x), i < out.size(), orthonormal on [-1, 1]: Legendre's by (i + 1) P_{i+1} = (2i + 1) x P_i - i P_{i-1}.
+/// sqrt(2i + 1) P_i(x), i < out.size(), orthonormal on [-1, 1]: Legendre's by (i + 1) P_{i+1} = (2i + 1) x P_i - i
+/// P_{i-1}.
 void legendre(double x, std::span<double> out);
 
 /// Products of those, N_i(x) N_j(y), i + j <= order, orthonormal on [-1, 1]².

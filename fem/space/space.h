@@ -33,7 +33,8 @@ struct PanelNodes {
   Eigen::MatrixXd values;      ///< nodes x functions
 };
 
-/// Polynomials of one order on panels, without continuity: unknowns are (panel, function), functions as in ElementBasis.
+/// Polynomials of one order on panels, without continuity: unknowns are (panel, function), functions as in
+/// ElementBasis.
 ///
 ///   G_ab = int N_a N_b = A delta_ab,   f_h = sum_a c_a N_a with c_a = (1/A) int f N_a, the best approximation in L2
 class Space {

@@ -10,7 +10,8 @@
 
 namespace interflect::scene::io {
 
-/// What may be repaired in a mesh; each repair is counted and noted in the scene, with the names of the first few faces.
+/// What may be repaired in a mesh; each repair is counted and noted in the scene, with the names of the first few
+/// faces.
 struct MeshRepair {
   double weld = 0;              ///< vertices nearer than this become one [m]; 0: none
   bool drop_degenerate = true;  ///< faces without area; otherwise they are an error
