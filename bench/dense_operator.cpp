@@ -24,7 +24,7 @@ using namespace interflect;
 
 namespace {
 
-constexpr int rounds = 25, iterations = 4;
+constexpr int rounds = 25, iterations = 20;
 constexpr std::size_t large_page = std::size_t{2} << 20;
 
 double seconds(const std::function<void()>& work) {
