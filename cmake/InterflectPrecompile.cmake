@@ -30,13 +30,14 @@ function(interflect_precompile target)
   if(NOT INTERFLECT_PRECOMPILE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
   endif()
-  # core is what the headers themselves are compiled like; CGAL rounds as it wants.
+  # core is what the headers themselves are compiled like; CGAL rounds as it wants; OpenEXR brings -pthread.
   get_target_property(libraries ${target} LINK_LIBRARIES)
-  if(target STREQUAL "interflect_core" OR "CGAL::CGAL" IN_LIST libraries)
+  if(target STREQUAL "interflect_core" OR "CGAL::CGAL" IN_LIST libraries OR "PkgConfig::OpenEXR" IN_LIST libraries)
     return()
   endif()
-  # gcc 12's false alarms on sums of strings (its bug 105651), which it keeps to itself where a header is the system's.
-  target_compile_options(${target} PRIVATE -Wno-stringop-overflow)
+  # gcc 12's false alarms on sums of strings (its bug 105651), which it keeps to itself where a header is the system's;
+  # the presets that do without have these warnings.
+  target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
   get_target_property(type ${target} TYPE)
   if(ARG_TESTS)
     interflect_precompiled(interflect_test_headers EXECUTABLE HEADERS <gtest/gtest.h> LIBRARIES GTest::gtest)
