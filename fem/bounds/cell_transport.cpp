@@ -259,4 +259,12 @@ CellTransport transport_over(const Surroundings& around, const Cell& cell, const
   return Examination(b, closed, cell, deepest)(around);
 }
 
+std::size_t bytes_of(const CellTransport& transport) {
+  std::size_t exchanges = 0;
+  for (const Branch& branch : transport.branches) exchanges += branch.far.capacity();
+  for (const Leaf& leaf : transport.leaves) exchanges += leaf.near.capacity();
+  return exchanges * sizeof(Exchange) + transport.branches.size() * sizeof(Branch) +
+         transport.leaves.size() * sizeof(Leaf);
+}
+
 }  // namespace interflect::fem

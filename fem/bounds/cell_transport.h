@@ -128,4 +128,7 @@ struct CellTransport {
 CellTransport transport_over(const Surroundings& around, const Cell& cell, const LinearField& b, bool closed,
                              int deepest);
 
+/// Memory that it takes [bytes].
+std::size_t bytes_of(const CellTransport& transport);
+
 }  // namespace interflect::fem

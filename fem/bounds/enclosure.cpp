@@ -51,14 +51,6 @@ struct Cover {
   std::size_t leaf;
 };
 
-std::size_t bytes_of(const CellTransport& transport) {
-  std::size_t exchanges = 0;
-  for (const Branch& branch : transport.branches) exchanges += branch.far.capacity();
-  for (const Leaf& leaf : transport.leaves) exchanges += leaf.near.capacity();
-  return exchanges * sizeof(Exchange) + transport.branches.size() * sizeof(Branch) +
-         transport.leaves.size() * sizeof(Leaf);
-}
-
 /// How often a cell may be cut: a few large elements are cut once more, which there is time for.
 int cuts_of(Index elements) {
   constexpr Index few = 160;
