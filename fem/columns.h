@@ -16,10 +16,18 @@ inline solvers::ColumnMatrix to_columns(std::span<const Spectrum> values, int ch
   return columns;
 }
 
+/// Of one number a channel: a row of columns, or what is computed of such.
+template <class Row>
+Spectrum to_spectrum(const Eigen::DenseBase<Row>& row) {
+  Spectrum value;
+  for (Index c = 0; c < row.size(); ++c) value[static_cast<int>(c)] = row.derived().coeff(c);
+  return value;
+}
+
 inline std::vector<Spectrum> to_spectra(const solvers::ColumnMatrix& columns) {
-  std::vector<Spectrum> values(static_cast<std::size_t>(columns.rows()));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    for (int c = 0; c < columns.cols(); ++c) values[i][c] = columns(static_cast<Index>(i), c);
+  std::vector<Spectrum> values;
+  values.reserve(static_cast<std::size_t>(columns.rows()));
+  for (Index i = 0; i < columns.rows(); ++i) values.push_back(to_spectrum(columns.row(i)));
   return values;
 }
 

@@ -41,19 +41,9 @@ void add_wall(const geometry::Box& box, int axis, bool high, scene::SurfaceId id
     out.push_back(quarter);
 }
 
-std::vector<scene::SurfacePatch> with_black_ones(const scene::Scene& scene,
-                                                 std::span<const scene::SurfacePatch> patches,
-                                                 const geometry::Box& box) {
+std::vector<scene::SurfacePatch> with_box(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
+                                          const geometry::Box& box) {
   std::vector<scene::SurfacePatch> all(patches.begin(), patches.end());
-  for (const scene::Facet& facet : scene.facets) {
-    const auto& [a, b, c] = facet.corner;
-    if (!(facet.area > 0)) continue;
-    for (const scene::Side side : {scene::Side::front, scene::Side::back}) {
-      if (scene.material(facet.surface).active(side)) continue;
-      const std::array<Vec3, 3> ring = side == scene::Side::front ? std::array{a, b, c} : std::array{a, c, b};
-      all.push_back(scene::make_patch(facet.surface, side, ring));
-    }
-  }
   const auto beyond = static_cast<std::uint32_t>(std::ssize(scene.surface_ids()));
   for (int axis = 0; axis < 3; ++axis)
     for (const bool high : {false, true})
@@ -84,7 +74,7 @@ geometry::ConvexRing whole_ring(std::span<const Vec3> ring) {
 Surroundings::Surroundings(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, bool closed)
     : Surroundings(
           scene, wider(scene.box()),
-          closed ? std::vector(patches.begin(), patches.end()) : with_black_ones(scene, patches, wider(scene.box()))) {}
+          closed ? std::vector(patches.begin(), patches.end()) : with_box(scene, patches, wider(scene.box()))) {}
 
 Surroundings::Surroundings(const scene::Scene& scene, const geometry::Box& box, std::vector<scene::SurfacePatch> all)
     : box_(box),

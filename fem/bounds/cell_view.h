@@ -31,12 +31,13 @@ struct PartSeen {
   geometry::ConvexRing ring;  ///< what of it is above the cell's horizon
 };
 
-/// All elements, to be looked at from cells.  In an open scene black ones are behind them: sides of surfaces that have no
-/// elements, and a box around all, so that every ray from within it ends on something and sum_j F_j = 1 there too.
+/// All elements, to be looked at from cells.  In an open scene black ones are behind them: backs that have no elements
+/// (black_backs.h), and a box around all, so that every ray from within it ends on something and sum_j F_j = 1 there
+/// too.
 class Surroundings {
  public:
-  /// @param patches  the elements, numbered first
-  /// @param closed   every ray that leaves an element arrives at one
+  /// @param patches  the elements, and then backs
+  /// @param closed   no box: every ray that leaves an element arrives at a patch, or there is nothing to close it by
   Surroundings(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, bool closed);
 
   Index elements() const { return shapes_.size(); }  ///< black ones included

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "core/error.h"
 #include "core/format.h"
@@ -32,6 +34,7 @@ struct ManyBounds {
     lower.row(row) = lower.row(row).cwiseMax(to.lower);
     upper.row(row) = upper.row(row).cwiseMin(to.upper);
   }
+  Interval of(Index row) const { return {to_spectrum(lower.row(row)), to_spectrum(upper.row(row))}; }
 };
 
 /// The residual on nodes of elements' quarter trees.
@@ -57,12 +60,12 @@ int cuts_of(Index elements) {
   return elements <= few ? 4 : 3;
 }
 
-/// Elements, and what else light may end on: of a closed scene no more than that.
+/// Elements, and what else light may end on.
 Surroundings surroundings_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> elements,
-                             const LitRegions& lit) {
+                             const std::optional<std::vector<scene::SurfacePatch>>& black, bool closed) {
   std::vector<scene::SurfacePatch> all(elements.begin(), elements.end());
-  all.insert(all.end(), lit.black_sides().begin(), lit.black_sides().end());
-  return {scene, all, lit.closed()};
+  if (black) all.insert(all.end(), black->begin(), black->end());
+  return {scene, all, closed || !black};
 }
 
 }  // namespace
@@ -72,7 +75,8 @@ class Enclosure::Iteration {
   Iteration(const scene::Scene& scene, const RadiositySolution& solution)
       : patches_(solution.mesh.patches()),
         lit_(scene),
-        around_(surroundings_of(scene, patches_, lit_)),
+        black_(lit_.black_ones(scene)),
+        around_(surroundings_of(scene, patches_, black_, lit_.closed())),
         field_(solution.field ? &*solution.field : nullptr),
         factors_(scene, patches_, field_ ? std::min(1, field_->order) : 0),
         B_(around_, solution, scene.channel_count()),
@@ -102,7 +106,8 @@ class Enclosure::Iteration {
     run.threads.for_blocks(elements_, 1, [&](Index element, Index) {
       run.throw_if_stopped("bounds");
       const auto k = static_cast<std::size_t>(element);
-      transports_[k] = transport_over(around_, around_.cell(patches_[k].ring()), B_, true, cuts_of(elements_));
+      transports_[k] =
+          transport_over(around_, around_.cell(patches_[k].ring()), B_, black_.has_value(), cuts_of(elements_));
       bytes += bytes_of(transports_[k]);
       if (static_cast<double>(bytes) > max_memory)
         throw core::InputError("bounds", core::format("of %td elements they need more than %s: --max-memory, or larger "
@@ -135,11 +140,12 @@ class Enclosure::Iteration {
     H_.lower = H_.lower.cwiseMax(0.0);
     mean_H_.lower = mean_H_.lower.cwiseMax(0.0);
     for (Index i = 0; i < elements_; ++i) {
-      irradiance.push_back(interval({H_.lower.row(i), H_.upper.row(i)}));
-      mean_irradiance.push_back(interval({mean_H_.lower.row(i), mean_H_.upper.row(i)}));
-      error.push_back(interval({e_.lower.row(i), e_.upper.row(i)}));
-      radiosity.push_back(interval({exitance_.row(i) + reflectance_.row(i).cwiseProduct(H_.lower.row(i)),
-                                    exitance_.row(i) + reflectance_.row(i).cwiseProduct(H_.upper.row(i))}));
+      const Row E = exitance_.row(i), rho = reflectance_.row(i);
+      irradiance.push_back(H_.of(i));
+      mean_irradiance.push_back(mean_H_.of(i));
+      error.push_back(e_.of(i));
+      radiosity.push_back(
+          {to_spectrum(E + rho.cwiseProduct(H_.lower.row(i))), to_spectrum(E + rho.cwiseProduct(H_.upper.row(i)))});
     }
   }
   Interval irradiance_at(const measure::PointIrradiance& at) const {
@@ -159,7 +165,7 @@ class Enclosure::Iteration {
         transport_over(around_, around_.cell_at(at.position, at.normal), B_, is_surrounded(at), 0);
     H = H + with_slack(transported(transport).front());
     H.lower = H.lower.cwiseMax(0.0);
-    return interval(H);
+    return {to_spectrum(H.lower), to_spectrum(H.upper)};
   }
 
   std::vector<Interval> irradiance, mean_irradiance, radiosity, error;
@@ -167,7 +173,7 @@ class Enclosure::Iteration {
  private:
   /// Whether all rays from a point end on something that is known here.
   bool is_surrounded(const measure::PointIrradiance& at) const {
-    return lit_.closed() ? lit_.contain(at.position, at.normal) : around_.within(at.position);
+    return lit_.closed() ? lit_.contain(at.position, at.normal) : black_ && around_.within(at.position);
   }
   /// B_h on an element by its constant, or by that and its linear functions.
   ColumnMatrix coefficients(Index element, Index functions) const {
@@ -188,14 +194,6 @@ class Enclosure::Iteration {
   }
   Bounds with_slack(const Bounds& b) const { return {b.lower.array() - slack_, b.upper.array() + slack_}; }
 
-  static Interval interval(const Bounds& b) {
-    Interval out;
-    for (Index c = 0; c < b.lower.size(); ++c) {
-      out.lower[static_cast<int>(c)] = b.lower[c];
-      out.upper[static_cast<int>(c)] = b.upper[c];
-    }
-    return out;
-  }
   /// The largest |r| there may be, and the largest |T e|.
   double largest_parts() const {
     const double r = r_.everywhere.upper.cwiseMax(-r_.everywhere.lower).maxCoeff();
@@ -367,6 +365,7 @@ class Enclosure::Iteration {
 
   std::span<const scene::SurfacePatch> patches_;
   LitRegions lit_;
+  std::optional<std::vector<scene::SurfacePatch>> black_;
   Surroundings around_;
   const PolynomialField* field_;
   PointViewFactors factors_;

@@ -148,6 +148,72 @@ EdgeSum by_edges(const Cell& cell, std::span<const Vec3> polygon) {
 
 double fourth(double r) { return r * r * r * r; }
 
+/// How a polygon lies to a cell.
+struct Situation {
+  double area, radius;     ///< of the polygon [m²], [m]
+  Vec3 between;            ///< from the cell's centre to the polygon's
+  double distance, radii;  ///< between the centres, and of both [m]
+  Heights c, h;            ///< of the polygon over the cell's plane, and of the cell over the polygon's
+  double nearest;          ///< no two points are nearer [m]
+};
+Situation situation_of(const Cell& cell, std::span<const Vec3> polygon, const geometry::Plane& plane) {
+  const auto [area, middle] = area_and_centre(polygon, plane.normal);
+  const double radius = radius_about(middle, polygon);
+  Situation of{area, radius, middle - cell.centre, 0, cell.radius + radius, {}, {}, 0};
+  of.distance = of.between.norm();
+  for (const Vec3& y : polygon) of.c.add(cell.normal.dot(y - cell.centre));
+  for (const Vec3& x : cell.ring) of.h.add(plane.distance(x));
+  of.nearest = std::max({of.c.least, of.h.least, of.distance - of.radii});
+  return of;
+}
+
+/// Of k = c h / (pi r^4) from anywhere in the cell to anywhere on the polygon, and its derivatives along their planes.
+struct KernelBounds {
+  double slope, third;  ///< |dk/dv| [1/m³] and |d³k/dv³| [1/m^5], at most
+  double least, most;   ///< [1/m²]
+};
+KernelBounds kernel_bounds(const Situation& of, const Cell& cell, const geometry::Plane& plane) {
+  const double z = std::min(1.0, of.c.most / of.nearest), by_square = inv_pi / (of.nearest * of.nearest);
+  const double slope = std::min(first_derivative, 3 * z) * by_square / of.nearest,
+               third = std::min(third_derivative, 60 * z) * by_square / (of.nearest * of.nearest * of.nearest);
+  const double centres = std::max(0.0, cell.normal.dot(of.between)) * std::max(0.0, plane.distance(cell.centre)) *
+                         inv_pi / fourth(of.distance);
+  return {slope, third,
+          std::max(of.c.least * of.h.least * inv_pi / fourth(of.distance + of.radii), centres - of.radii * slope),
+          std::min(z * std::min(1.0, of.h.most / of.nearest) * by_square, centres + of.radii * slope)};
+}
+
+/// Lambert's formula about the cell's centre to second order.
+struct Expansion {
+  EdgeSum at_centre;
+  double remainder;  ///< of F anywhere in the cell
+  double change;     ///< |F - F(centre)|, at most
+};
+Expansion expansion_of(const Cell& cell, std::span<const Vec3> polygon, double area, double third) {
+  Expansion of{by_edges(cell, polygon), 0, 0};
+  const auto& [ss, st, tt] = of.at_centre.hessian;
+  const double R = cell.radius, first_order = of.at_centre.gradient.norm() * R,
+               second_order = 0.5 * R * R * std::sqrt(ss * ss + 2 * st * st + tt * tt);
+  of.remainder = R * R * R / 6 * area * third + derivatives_accuracy * (first_order + second_order);
+  of.change = first_order + second_order + of.remainder;
+  return of;
+}
+
+/// The polynomial, where it says more than the least and the most do.
+void set_polynomial(FactorRange& range, const Expansion& by) {
+  const double half = 0.5 * (range.most - range.least);
+  const auto& [value, gradient, hessian, accurate] = by.at_centre;
+  range.smooth = accurate && by.remainder < half;
+  if (range.smooth) {
+    range.value = value;
+    range.derivatives = {gradient[0], gradient[1], hessian[0], hessian[1], hessian[2]};
+    range.remainder = by.remainder;
+  } else {
+    range.value = range.least + half;
+    range.remainder = half;
+  }
+}
+
 }  // namespace
 
 Cell cell_of(std::span<const Vec3> ring) {
@@ -174,47 +240,21 @@ Cell cell_of(std::span<const Vec3> ring, const Cell& wider) {
 }
 
 FactorRange factor_range(const Cell& cell, std::span<const Vec3> polygon, const geometry::Plane& plane) {
-  const auto [area, middle] = area_and_centre(polygon, plane.normal);
-  const Vec3 between = middle - cell.centre;
-  const double radius = radius_about(middle, polygon), distance = between.norm(), radii = cell.radius + radius;
-  Heights c, h;
-  for (const Vec3& y : polygon) c.add(cell.normal.dot(y - cell.centre));
-  for (const Vec3& x : cell.ring) h.add(plane.distance(x));
-  const double nearest = std::max({c.least, h.least, distance - radii});
+  const Situation pair = situation_of(cell, polygon, plane);
   const double half_space = std::clamp(0.5 * (1 - cell.normal.dot(plane.normal)), 0.0, 1.0);
-  if (!(nearest > 0)) return between_none_and(half_space);
-
-  const EdgeSum edges = by_edges(cell, polygon);
+  if (!(pair.nearest > 0)) return between_none_and(half_space);
+  const KernelBounds k = kernel_bounds(pair, cell, plane);
+  const Expansion F = expansion_of(cell, polygon, pair.area, k.third);
   FactorRange range;
-  range.value = edges.value;
-  const auto& [ss, st, tt] = edges.hessian;
-  range.derivatives = {edges.gradient[0], edges.gradient[1], ss, st, tt};
-  const double z = std::min(1.0, c.most / nearest), by_square = inv_pi / (nearest * nearest);
-  const double slope = std::min(first_derivative, 3 * z) * by_square / nearest,
-               third = std::min(third_derivative, 60 * z) * by_square / (nearest * nearest * nearest);
-  const double kernel =
-      std::max(0.0, cell.normal.dot(between)) * std::max(0.0, plane.distance(cell.centre)) * inv_pi / fourth(distance);
-  range.across = area * radius * slope;
-  const double R = cell.radius, first_order = edges.gradient.norm() * R,
-               second_order = 0.5 * R * R * std::sqrt(ss * ss + 2 * st * st + tt * tt);
-  range.remainder = R * R * R / 6 * area * third + derivatives_accuracy * (first_order + second_order);
-  const double change = first_order + second_order + range.remainder,
-               kernel_most = std::min(z * std::min(1.0, h.most / nearest) * by_square, kernel + radii * slope),
-               kernel_least = std::max(c.least * h.least * inv_pi / fourth(distance + radii), kernel - radii * slope);
-  range.least = std::max(0.0, area * kernel_least);
-  range.most = std::min(half_space, area * kernel_most);
-  if (edges.accurate) {
-    range.least = std::max(range.least, range.value - change);
-    range.most = std::min(range.most, range.value + change);
+  range.across = pair.area * pair.radius * k.slope;
+  range.least = std::max(0.0, pair.area * k.least);
+  range.most = std::min(half_space, pair.area * k.most);
+  if (F.at_centre.accurate) {
+    range.least = std::max(range.least, F.at_centre.value - F.change);
+    range.most = std::min(range.most, F.at_centre.value + F.change);
   }
   range.most = std::max(range.least, range.most);
-  const double half = 0.5 * (range.most - range.least);
-  range.smooth = edges.accurate && range.remainder < half;
-  if (!range.smooth) {
-    range.value = range.least + half;
-    range.derivatives = {};
-    range.remainder = half;
-  }
+  set_polynomial(range, F);
   return range;
 }
 

@@ -6,9 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fem/bounds/facet_cells.h"
-#include "geometry/box_tree.h"
-#include "scene/scene.h"
+#include "fem/bounds/scene_cells.h"
 
 namespace interflect::fem {
 
@@ -35,8 +33,11 @@ class LitRegions {
   /// Whether no light that leaves an element can escape.
   bool closed() const { return closed_; }
   /// Of a closed scene, the sides without elements that there are around the elements' regions, in triangles; they are
-  /// black.  Where an active side lies in the same place, that is what is seen.
+  /// black.  Where an active side lies in the same place, that is what is seen (black_backs.h).
   std::span<const scene::SurfacePatch> black_sides() const { return black_; }
+  /// Those, or of an open scene all backs: what light may end on beside elements, but for a box around it.  Nothing
+  /// where that is not known.
+  std::optional<std::vector<scene::SurfacePatch>> black_ones(const scene::Scene& scene) const;
   /// Of a closed scene: whether a point, or what is just in front of it, is proved to be in a region that elements look
   /// into.
   bool contain(const Vec3& x, const Vec3& normal) const;
@@ -50,20 +51,13 @@ class LitRegions {
   std::optional<Label> label_along(const Vec3& x, const Vec3& normal, const Vec3& direction) const;
   Meeting meeting(const FacetCell& cell, const Vec3& x, const Vec3& normal, const Vec3& direction) const;
   std::optional<Label> label_of(const FacetCell& cell, scene::Side side) const;
-  bool find_cells(const scene::Scene& scene);
   bool find_labels(const scene::Scene& scene);
-  void find_black_sides(const scene::Scene& scene);
-  bool takes_the_place(const FacetCell& other, const FacetCell& of, scene::Side side, const scene::Scene& scene) const;
-  void add_black(const FacetCell& cell, scene::Side side, const scene::Scene& scene);
+  bool find_black_sides(const scene::Scene& scene);
 
-  Vec3 centre_;
-  double size_;  ///< of the scene [m]; all else here is in units of it, about the centre
-  double tolerance_;
-  std::vector<FacetCell> cells_;
+  std::optional<SceneCells> all_;
   std::vector<Label> cycles_;  ///< that a cell is in
-  geometry::BoxTree tree_;     ///< of cells
   std::set<Label> labels_;     ///< in front of elements
-  bool closed_;
+  bool closed_ = false;
   std::vector<scene::SurfacePatch> black_;
 };
 

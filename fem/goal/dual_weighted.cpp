@@ -19,12 +19,6 @@ ColumnMatrix arriving(const ElementSystem& system, const ColumnMatrix& b, Run& r
   return h;
 }
 
-Spectrum spectrum_of(const Eigen::RowVectorXd& values) {
-  Spectrum out;
-  for (Index c = 0; c < values.size(); ++c) out[static_cast<int>(c)] = values[c];
-  return out;
-}
-
 /// Of what functions send from afar: far below what elements lack, wherever it matters.
 constexpr double accuracy_of_transport = 1e-5;
 
@@ -33,7 +27,7 @@ constexpr double accuracy_of_transport = 1e-5;
 double decay_of(const scene::Scene& scene, const Eigen::Ref<const ColumnMatrix>& functions) {
   const auto of_degree = [&](int degree) {
     const Index first = degree == 0 ? 0 : plane_functions(degree - 1), count = plane_functions(degree) - first;
-    return scene.weigh(spectrum_of(functions.middleRows(first, count).colwise().norm()));
+    return scene.weigh(to_spectrum(functions.middleRows(first, count).colwise().norm()));
   };
   constexpr double least = 1e-6;  // of the mean: less matters nowhere, and from afar less than 1e-5 is not known
   const double floor = least * of_degree(0);
@@ -72,7 +66,7 @@ class Estimator {
       for (Index a = 0; a < functions_; ++a) sum += direct(i, a) * b.row(i * functions_ + a);
       sum += area(i) * arriving_on(i) * h.row(i * functions_);
     }
-    return spectrum_of(sum);
+    return to_spectrum(sum);
   }
 
   /// <z_h, e>, z_h = c_h + T_h w: of exitance, which is constant on elements.
@@ -84,7 +78,7 @@ class Estimator {
         const Index u = i * functions_ + a;
         sum += (direct(i, a) + gram(u) * h_w.row(u).array()).matrix().cwiseProduct(system_.e.row(u));
       }
-    return spectrum_of(sum);
+    return to_spectrum(sum);
   }
 
   /// Of K's entries of constants, pair by pair.
@@ -134,12 +128,12 @@ class Estimator {
         size += of_direct.cwiseAbs();
       }
       correction += product;
-      out.of_elements.push_back(spectrum_of(product));
-      out.size.push_back(spectrum_of(size));
+      out.of_elements.push_back(to_spectrum(product));
+      out.size.push_back(to_spectrum(size));
       out.decay.push_back(decay_of(system_.scene, of_transported.leftCols(channels)) +
                           decay_of(system_.scene, of_transported.rightCols(channels)));
     }
-    out.correction = spectrum_of(correction);
+    out.correction = to_spectrum(correction);
   }
 
  private:
