@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "raycast/ray_caster.h"
@@ -53,27 +54,18 @@ class Recorder final : public raycast::RayCaster {
 /// Embree and nothing else: the scene's facets about their centre, rays already in single precision.
 class BareEmbree {
  public:
-  BareEmbree(const scene::Scene& scene, const Recorder& recorded, double offset) : order_(recorded.order) {
+  BareEmbree(const scene::Scene& scene, const Recorder& recorded, double offset)
+      : BareEmbree(scene, recorded.rays, recorded.segments, offset) {
+    order_ = recorded.order;
+  }
+  /// @param offset  of surfaces, from which rays and segments start [m]
+  BareEmbree(const scene::Scene& scene, std::span<const raycast::Ray> rays, std::span<const raycast::Segment> segments,
+             double offset) {
     const geometry::Box box = scene.box();
     centre_ = box.center(), scale_ = 1 / box.sizes().maxCoeff();
-    bvh_ = rtcNewScene(device_);
-    rtcSetSceneFlags(bvh_, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const auto buffer = [&](RTCBufferType type, RTCFormat format, std::size_t items) {
-      return rtcSetNewGeometryBuffer(geometry, type, 0, format, 12, items);
-    };
-    auto* x = static_cast<float*>(buffer(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * scene.facets.size()));
-    auto* index = static_cast<unsigned*>(buffer(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, scene.facets.size()));
-    for (const scene::Facet& facet : scene.facets)
-      for (const Vec3& corner : facet.corner)
-        for (int axis = 0; axis < 3; ++axis) *x++ = static_cast<float>((corner[axis] - centre_[axis]) * scale_);
-    for (unsigned i = 0; i < 3 * scene.facets.size(); ++i) index[i] = i;
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(bvh_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(bvh_);
-    for (const auto& ray : recorded.rays) rays_.push_back(make(ray.origin + offset * ray.leaves, ray.direction, 1e30F));
-    for (const auto& s : recorded.segments) {
+    add_facets(scene);
+    for (const auto& ray : rays) rays_.push_back(make(ray.origin + offset * ray.leaves, ray.direction, 1e30F));
+    for (const auto& s : segments) {
       const Vec3 from = s.from + offset * s.from_normal, to = s.to + offset * s.to_normal;
       segments_.push_back(make(from, (to - from) * scale_, 1));
     }
@@ -83,9 +75,10 @@ class BareEmbree {
   BareEmbree(const BareEmbree&) = delete;
   BareEmbree& operator=(const BareEmbree&) = delete;
 
-  std::size_t rays() const { return order_.size(); }
+  std::size_t rays() const { return rays_.size() + segments_.size(); }
+  std::size_t in_packets() const { return 8 * packets_.size(); }  ///< segments, but for the few that fill none
 
-  /// Both kinds in the order in which the path tracer asked.
+  /// Both kinds in the order recorded.
   std::size_t in_order() const {
     std::size_t hits = 0, ray = 0, segment = 0;
     for (const bool is_ray : order_) hits += is_ray ? hit(rays_[ray++]) : blocked(segments_[segment++]);
@@ -115,6 +108,24 @@ class BareEmbree {
   }
 
  private:
+  void add_facets(const scene::Scene& scene) {
+    bvh_ = rtcNewScene(device_);
+    rtcSetSceneFlags(bvh_, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const auto buffer = [&](RTCBufferType type, RTCFormat format, std::size_t items) {
+      return rtcSetNewGeometryBuffer(geometry, type, 0, format, 12, items);
+    };
+    auto* x = static_cast<float*>(buffer(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * scene.facets.size()));
+    auto* index = static_cast<unsigned*>(buffer(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, scene.facets.size()));
+    for (const scene::Facet& facet : scene.facets)
+      for (const Vec3& corner : facet.corner)
+        for (int axis = 0; axis < 3; ++axis) *x++ = static_cast<float>((corner[axis] - centre_[axis]) * scale_);
+    for (unsigned i = 0; i < 3 * scene.facets.size(); ++i) index[i] = i;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(bvh_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(bvh_);
+  }
   RTCRay make(const Vec3& origin, const Vec3& direction, float tfar) const {
     const Eigen::Vector3f o = ((origin - centre_) * scale_).cast<float>(), d = direction.cast<float>();
     return {o.x(), o.y(), o.z(), 0, d.x(), d.y(), d.z(), 0, tfar, ~0u, 0, 0};

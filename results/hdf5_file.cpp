@@ -6,118 +6,22 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <mutex>
 #include <system_error>
 #include <utility>
 
 #include "core/error.h"
 #include "results/atomic_file.h"
+#include "results/hdf5_library.h"
 
 namespace interflect::results {
 
 namespace {
 
-static_assert(sizeof(hid_t) == sizeof(std::int64_t));
-
-/// The library has one state for the whole process and does not lock it.
-std::mutex& library_mutex() {
-  // All that is opened here is closed here.  Of damaged files the library loses track, and prints so when the program
-  // ends.
-  [[maybe_unused]] static const herr_t no_clearing_up = H5dont_atexit();
-  static std::mutex mutex;
-  return mutex;
-}
-
-/// What the library remembers of its last failure.
-struct Complaint {
-  std::string of_system;   ///< "No space left on device"; empty where the system had no part in it
-  std::string of_library;  ///< the innermost
-};
-
-Complaint last_complaint() {
-  Complaint said;
-  const auto look = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
-    Complaint& found = *static_cast<Complaint*>(out);
-    const std::string description = error->desc ? error->desc : "";
-    const std::string key = "error message = '";
-    if (const auto at = description.find(key); at != std::string::npos) {
-      found.of_system = core::single_line(description.substr(at + key.size()));
-      found.of_system.erase(std::min(found.of_system.find('\''), found.of_system.size()));
-      return 1;  // that is all
-    }
-    if (found.of_library.empty()) found.of_library = core::single_line(description);
-    return 0;
-  };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &said);
-  return said;
-}
-
-/// One turn with the library, whose own reports go nowhere.
-class Turn {
- public:
-  Turn() : lock_(library_mutex()) {
-    H5Eget_auto2(H5E_DEFAULT, &report_, &reported_to_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Turn() { H5Eset_auto2(H5E_DEFAULT, report_, reported_to_); }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-
- private:
-  std::lock_guard<std::mutex> lock_;
-  H5E_auto2_t report_ = nullptr;
-  void* reported_to_ = nullptr;
-};
-
-/// Something of the library's that has to be closed.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for what it holds
-  hid_t release() { return std::exchange(id_, -1); }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// Within a turn: complains about what did not work.  What cannot be read, and not for the system's sake, is damaged:
-/// which of its structures the library missed first says nothing to anybody.
-class Checks {
- public:
-  enum class Task { write, read };
-
-  Checks(const std::filesystem::path& path, std::string trouble, Task task)
-      : path_(path), trouble_(std::move(trouble)), task_(task) {}
-  template <class Result>
-  Result operator()(Result result) const {
-    if (result < 0) fail(last_complaint());
-    return result;
-  }
-
- private:
-  [[noreturn]] void fail(const Complaint& said) const {
-    const std::string trouble = trouble_ + ": ";
-    if (!said.of_system.empty()) throw core::InputError(path_.string(), trouble + said.of_system);
-    if (task_ == Task::read) throw DamagedFile(path_.string(), trouble + "the file is damaged or cut short");
-    throw core::InputError(path_.string(),
-                           trouble + (said.of_library.empty() ? "the HDF5 library says no more" : said.of_library));
-  }
-
-  const std::filesystem::path& path_;
-  std::string trouble_;
-  Task task_;
-};
-
-Checks writing(const std::filesystem::path& path) { return {path, "cannot be written", Checks::Task::write}; }
-Checks reading(const std::filesystem::path& path, const std::string& name) {
-  return {path, "'" + name + "' cannot be read", Checks::Task::read};
-}
+using hdf5::Checks;
+using hdf5::Handle;
+using hdf5::reading;
+using hdf5::Turn;
+using hdf5::writing;
 
 hid_t space_of(const Hdf5File::Sizes& sizes) {
   const std::vector<hsize_t> dims(sizes.begin(), sizes.end());
@@ -238,7 +142,7 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file, Access access) {
   check(is_hdf5);
   const Handle how(plain_access(check), H5Pclose);
   const hid_t opened = H5Fopen(file.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, how);
-  if (opened < 0 && last_complaint().of_system == std::generic_category().message(EAGAIN))
+  if (opened < 0 && hdf5::last_complaint().of_system == std::generic_category().message(EAGAIN))
     throw core::InputError(file.string(), "another process has it open");
   return {file, check(opened)};
 }

@@ -117,6 +117,28 @@ void check_energy(const scene::Scene& scene, Certificate& certificate) {
         format("the absorbed flux differs by %s of the emitted flux", percent(off / emitted).c_str()));
 }
 
+std::size_t number_of(Judged::Kind kind, std::span<const Judged> judged) {
+  return static_cast<std::size_t>(
+      std::count_if(judged.begin(), judged.end(), [=](const Judged& j) { return is(j, kind); }));
+}
+
+/// Whether there is something to judge by the path tracer, and the path tracer good enough.
+void check_reference(Certificate& certificate) {
+  const Norms& norms = certificate.judgements.front().norms();
+  const double limit = certificate.settings.reference_limit;
+  if (norms.measurements == 0)
+    certificate.reasons.insert(certificate.reasons.begin(), "no surface and no element was judged");
+  if (norms.reference_error > limit)
+    certificate.reasons.push_back(
+        format("the reference is too noisy to judge by: its 95 %% error is %s, and %s was asked for",
+               percent(norms.reference_error).c_str(), percent(limit).c_str()));
+}
+
+std::string reason_of(const ExpectedCheck& missed) {
+  return format("sensor %s: %s is %.6g by FEM and %.6g by path tracing, %.6g +- %s expected", missed.sensor.c_str(),
+                missed.statistic.c_str(), missed.fem, missed.mc, missed.expected, percent(missed.tolerance).c_str());
+}
+
 std::string verdict_of(const Certificate& certificate) {
   const Judgement& weighted = certificate.judgements.front();
   const Norms& norms = weighted.norms();
@@ -161,14 +183,9 @@ Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, c
   certificate.unit = scene.irradiance_unit();
   certificate.fem_energy = fem;
   certificate.mc_energy = mc;
-  const auto number_of = [&](Judged::Kind kind) {
-    return static_cast<std::size_t>(
-        std::count_if(judged.begin(), judged.end(), [=](const Judged& j) { return is(j, kind); }));
-  };
-  certificate.surfaces = number_of(Judged::Kind::surface);
-  certificate.elements = number_of(Judged::Kind::element);
-  certificate.sensors = number_of(Judged::Kind::sensor);
-
+  certificate.surfaces = number_of(Judged::Kind::surface, judged);
+  certificate.elements = number_of(Judged::Kind::element, judged);
+  certificate.sensors = number_of(Judged::Kind::sensor, judged);
   const std::vector<Reading> readings = readings_of(scene);
   certificate.comparisons = readings.size() * (judged.size() + 1);
   const double z_max = sidak_z_max(settings.alpha, certificate.comparisons);
@@ -177,22 +194,13 @@ Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, c
     give_reasons(judged, j, settings, certificate.reasons);
     give_remarks(judged, j, settings.alpha, certificate.remarks);
   }
-  const Norms& norms = certificate.judgements.front().norms();
-  if (norms.measurements == 0)
-    certificate.reasons.insert(certificate.reasons.begin(), "no surface and no element was judged");
-  if (norms.reference_error > settings.reference_limit)
-    certificate.reasons.push_back(
-        format("the reference is too noisy to judge by: its 95 %% error is %s, and %s was asked for",
-               percent(norms.reference_error).c_str(), percent(settings.reference_limit).c_str()));
+  check_reference(certificate);
   remark_on_bias(certificate);
   find_worst_surface(judged, certificate);
   check_energy(scene, certificate);
   certificate.expected = check_expected(scene, judged);
   for (const ExpectedCheck& e : certificate.expected)
-    if (!e.passed())
-      certificate.reasons.push_back(format("sensor %s: %s is %.6g by FEM and %.6g by path tracing, %.6g +- %s expected",
-                                           e.sensor.c_str(), e.statistic.c_str(), e.fem, e.mc, e.expected,
-                                           percent(e.tolerance).c_str()));
+    if (!e.passed()) certificate.reasons.push_back(reason_of(e));
   certificate.passed = certificate.reasons.empty();
   certificate.verdict = verdict_of(certificate);
   return certificate;
