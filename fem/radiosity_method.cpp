@@ -29,6 +29,19 @@ std::uint64_t key_of(const measure::PixelRadiance& pixel) {
       {static_cast<double>(pixel.camera.value), static_cast<double>(pixel.x), static_cast<double>(pixel.y)});
 }
 
+/// An answer whose noise is told apart.  What it has from the elements is one and the same deviation for all answers,
+/// and does not average out among them; what its own rays leave is new in each.
+struct Answer {
+  Estimate by_itself;  ///< its standard error is of its own rays
+  Spectrum inherited;  ///< standard error, of elements
+
+  Estimate estimate() const {
+    Estimate all = by_itself;
+    all.standard_error = sqrt(by_itself.standard_error * by_itself.standard_error + inherited * inherited);
+    return all;
+  }
+};
+
 /// Answers one list, measurement by measurement: everything here is read only.
 class Answers {
  public:
@@ -57,8 +70,10 @@ class Answers {
   std::optional<std::size_t> same_element(const scene::SurfacePatch& patch) const;
   void add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& tiles) const;
   Estimate arriving_on(std::vector<Tile> tiles, bool plane) const;
-  Estimate by_polynomials(const measure::PointIrradiance& asked) const;
-  Estimate radiosity_at(std::size_t element, const scene::SurfacePoint& x) const;
+  Answer at(const measure::PointIrradiance& asked) const;
+  Answer by_polynomials(const measure::PointIrradiance& asked) const;
+  Answer by_constants(const measure::PointIrradiance& asked) const;
+  Answer radiosity_at(std::size_t element, const scene::SurfacePoint& x) const;
 
   const scene::Scene& scene_;
   const RadiositySolution& s_;
@@ -176,7 +191,7 @@ Estimate Answers::operator()(const measure::Flux& asked) const {
 }
 
 /// Of polynomials: the iterated value, whose last bounce has no noise, less the same of the order below.
-Estimate Answers::by_polynomials(const measure::PointIrradiance& asked) const {
+Answer Answers::by_polynomials(const measure::PointIrradiance& asked) const {
   const PolynomialField& field = *s_.field;
   std::vector<double> F(static_cast<std::size_t>(field.radiosity.rows())), rounding(s_.mesh.size());
   (*exact_)(asked, F, rounding);
@@ -199,11 +214,10 @@ Estimate Answers::by_polynomials(const measure::PointIrradiance& asked) const {
   const Spectrum difference = abs(value - below);
   Spectrum error = from_elements;
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(difference[c], 0.05 * sizes[c]);
-  return {value, sqrt(own_variance + shared * shared), error, Claim::estimated, 0};
+  return {{value, Spectrum(), error, Claim::estimated, 0}, sqrt(own_variance + shared * shared)};
 }
 
-Estimate Answers::operator()(const measure::PointIrradiance& asked) const {
-  if (exact_) return by_polynomials(asked);
+Answer Answers::by_constants(const measure::PointIrradiance& asked) const {
   const Gathered gathered = gather_(asked, key_of(asked), importance_);
   Spectrum sizes, from_elements, own_variance, shared;
   for (const GatheredElement& g : gathered.elements) {
@@ -214,33 +228,48 @@ Estimate Answers::operator()(const measure::PointIrradiance& asked) const {
     shared += g.factor * (rho * s_.shared_noise);
     from_elements += g.factor * (s_.reflectance[j] * s_.irradiance_error[j]);
   }
-  const Spectrum halving = abs(irradiance(gathered, halving_)), noise = irradiance_noise(gathered, s_.radiosity);
+  const Spectrum halving = abs(irradiance(gathered, halving_));
   Spectrum error = from_elements;  // the elements' own bounds, reflected: what the gather inherits
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(halving[c], 0.05 * sizes[c]);
-  return {irradiance(gathered, s_.radiosity), sqrt(noise * noise + own_variance + shared * shared), error,
-          Claim::estimated, gathered.rays};
+  return {{irradiance(gathered, s_.radiosity), irradiance_noise(gathered, s_.radiosity), error, Claim::estimated,
+           gathered.rays},
+          sqrt(own_variance + shared * shared)};
 }
 
+Answer Answers::at(const measure::PointIrradiance& asked) const {
+  return exact_ ? by_polynomials(asked) : by_constants(asked);
+}
+
+Estimate Answers::operator()(const measure::PointIrradiance& asked) const { return at(asked).estimate(); }
+
 /// B_h, or the iterated one.
-Estimate Answers::radiosity_at(std::size_t i, const scene::SurfacePoint& x) const {
+Answer Answers::radiosity_at(std::size_t i, const scene::SurfacePoint& x) const {
   const Spectrum rho = s_.reflectance[i];
   if (!pixel_.gather)
-    return {s_.field ? s_.field->at(i, x.position) : s_.radiosity[i], rho * s_.irradiance_noise[i],
-            rho * s_.irradiance_error[i] + s_.field_error[i], Claim::estimated, 0};
-  Estimate B = (*this)(measure::PointIrradiance{x.position, s_.mesh.patches()[i].normal(), x.surface});
-  B.value = s_.exitance[i] + rho * B.value;
-  B.standard_error *= rho;
-  B.error_bound *= rho;
+    return {{s_.field ? s_.field->at(i, x.position) : s_.radiosity[i], Spectrum(),
+             rho * s_.irradiance_error[i] + s_.field_error[i], Claim::estimated, 0},
+            rho * s_.irradiance_noise[i]};
+  Answer B = at({x.position, s_.mesh.patches()[i].normal(), x.surface});
+  B.by_itself.value = s_.exitance[i] + rho * B.by_itself.value;
+  B.by_itself.standard_error *= rho;
+  B.by_itself.error_bound *= rho;
+  B.inherited *= rho;
   return B;
 }
 
+/// The mean over n rays.  Their spread tells the noise of the mean, with what the rays' own gathers leave; a single ray
+/// has no spread, and that is stated as it is.  The elements' noise is the same for all rays and need not show in their
+/// spread; however it is correlated, the standard error that it leaves in the mean is the mean of its own at most:
+///
+///   SE² = SE_rays² + (1/n sum_k inherited_k / pi)²
 Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
   const int side = pixel_.side;
   const bool alone = side == 1;  // through the middle of the pixel, whose radiance it is then
   const scene::Camera& camera = scene_.camera(asked.camera);
   core::RandomNumbers random(core::derived_seed(seed_, "pixels"), 0, key_of(asked));
   core::Moments radiance;
-  Spectrum error;
+  Spectrum error, of_ray, inherited;
+  const double share = inv_pi / (side * side);
   for (int k = 0; k < side * side; ++k) {
     const int column = k % side, row = k / side;
     const double in_column = alone ? 0.5 : random.next(), in_row = alone ? 0.5 : random.next();
@@ -251,12 +280,14 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
       radiance.add(Spectrum::zero());  // nothing, or a black back
       continue;
     }
-    const Estimate B = radiosity_at(element->element.value, *hit);
-    radiance.add(inv_pi * B.value);
-    error += inv_pi / (side * side) * (B.error_bound + B.standard_error);
+    const Answer B = radiosity_at(element->element.value, *hit);
+    radiance.add(inv_pi * B.by_itself.value);
+    error += share * B.by_itself.error_bound;
+    inherited += share * B.inherited;
+    of_ray = inv_pi * B.by_itself.standard_error;
   }
-  return {radiance.mean(), radiance.count() > 1 ? radiance.standard_error() : Spectrum(), error, Claim::estimated,
-          radiance.count()};
+  const Spectrum of_rays = radiance.count() > 1 ? radiance.standard_error() : of_ray;
+  return {radiance.mean(), sqrt(of_rays * of_rays + inherited * inherited), error, Claim::estimated, radiance.count()};
 }
 
 }  // namespace

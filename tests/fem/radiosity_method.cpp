@@ -14,10 +14,11 @@ using test::Room;
 using test::solve;
 
 std::vector<Estimate> answers(const scene::Scene& scene, const RadiositySolution& solution,
-                              const std::vector<measure::Measurement>& asked, unsigned threads = 2) {
+                              const std::vector<measure::Measurement>& asked, unsigned threads = 2,
+                              PixelRays pixel = {}) {
   const auto rays = raycast::make_ray_caster("brute", scene);
   core::LocalRun run(1, threads);
-  return RadiosityMethod(solution, *rays).answer(scene, asked, run.get());
+  return RadiosityMethod(solution, *rays, pixel).answer(scene, asked, run.get());
 }
 
 /// docs/truths.md 2.4: unit squares one metre apart, reflectances .3 and .7, the lower one emits 1.
@@ -128,6 +129,47 @@ TEST(RadiosityMethod, of_pixels_is_radiosity_over_pi) {
   open.cameras.push_back({"away", {.5, .5, 3}, {.5, .5, 9}, Vec3::UnitX(), 60, 8, 8});
   const auto nothing = answers(open, solve(open, {.element_size = .5}), {measure::PixelRadiance{{0}, 3, 3}});
   EXPECT_EQ(nothing[0].value, Spectrum::zero());
+}
+
+/// A lit room with a body that hides some of every wall, and a camera whose single pixel sees a spot on the floor.
+scene::Scene room_with_a_body() {
+  Room room;
+  room.box({0, 0, 0}, {1, 1, 1}, 1, true, .5, .5);
+  room.box({.25, .25, .25}, {.25, .25, .25}, 1, false, .5);
+  scene::Scene scene = room.finish();
+  scene.cameras.push_back({"spot", {.3, .7, .9}, {.3, .7, 0}, Vec3::UnitX(), .1, 1, 1});
+  return scene;
+}
+
+// With B = E + rho H all of a pixel is that of H at the point seen, times rho / pi: noise remains noise, and a bound a
+// bound.  A single ray has no spread that would tell of the noise of its gather.
+TEST(RadiosityMethod, of_a_pixel_of_one_ray_has_the_noise_and_the_bound_of_the_point_seen) {
+  const scene::Scene scene = room_with_a_body();
+  const auto s = solve(scene, {.element_size = .5});
+  const auto hit = raycast::make_ray_caster("brute", scene)->closest({{.3, .7, .9}, -Vec3::UnitZ()});
+  ASSERT_TRUE(hit);
+  const auto found = answers(
+      scene, s, {measure::PointIrradiance{hit->position, hit->normal, hit->surface}, measure::PixelRadiance{{0}, 0, 0}},
+      1, {.side = 1, .gather = true});
+  EXPECT_GT(found[0].standard_error[0], 0);
+  EXPECT_NEAR(found[1].value[0], inv_pi * (.5 + .5 * found[0].value[0]), 1e-3 * found[1].value[0]);
+  EXPECT_NEAR(found[1].standard_error[0], inv_pi * .5 * found[0].standard_error[0], .3 * found[1].standard_error[0]);
+  EXPECT_NEAR(found[1].error_bound[0], inv_pi * .5 * found[0].error_bound[0], .02 * found[1].error_bound[0]);
+}
+
+// Sixteen rays to one element find the same B there, and so no spread: they all have its noise, which does not average
+// out.
+TEST(RadiosityMethod, of_a_pixel_has_the_noise_of_the_element_seen) {
+  const scene::Scene scene = room_with_a_body();
+  const auto s = solve(scene, {.element_size = .5});
+  const auto seen = s.mesh.locate(*raycast::make_ray_caster("brute", scene)->closest({{.3, .7, .9}, -Vec3::UnitZ()}));
+  ASSERT_TRUE(seen);
+  const std::size_t i = seen->element.value;
+  const Estimate pixel = answers(scene, s, {measure::PixelRadiance{{0}, 0, 0}})[0];
+  EXPECT_EQ(pixel.samples, 16u);
+  EXPECT_GT(s.irradiance_noise[i][0], 0);
+  EXPECT_NEAR(pixel.standard_error[0], inv_pi * .5 * s.irradiance_noise[i][0], 1e-12);
+  EXPECT_NEAR(pixel.error_bound[0], inv_pi * (.5 * s.irradiance_error[i] + s.field_error[i])[0], 1e-12);
 }
 
 // Sampled visibilities are keyed by the question: its place in the list does not matter.
