@@ -56,6 +56,7 @@ FactorStoreKey key_of(const ViewFactorOptions& options, const FactorRequest& req
       .add("samples", options.samples)
       .add("resolution", options.resolution)
       .add("visibility_rays", options.visibility_rays)
+      .add("visibility_error", options.visibility_error)
       .add("seed", seed);
   if (repaired) settings.add("closure", options.closure);
   return {request.digest(), results::json_text(settings)};

@@ -23,6 +23,7 @@ struct EffortOptions {
   std::uint64_t& samples;
   int& resolution;
   int& visibility_rays;
+  double& visibility_error;
 };
 
 void add_effort(CLI::App& command, const EffortOptions& options) {
@@ -38,13 +39,21 @@ void add_effort(CLI::App& command, const EffortOptions& options) {
           ->capture_default_str();
   const CLI::Option* rays = command
                                 .add_option("--visibility-rays", options.visibility_rays,
-                                            "Of gauss-lambert and hybrid: for a pair that something may hide")
+                                            "Of gauss-lambert and duffy: for a pair that something may hide")
                                 ->check(CLI::Range(4, 65536))
                                 ->capture_default_str();
-  command.parse_complete_callback([samples, cells, rays, &method = options.method] {
+  const CLI::Option* error =
+      command
+          .add_option("--visibility-error", options.visibility_error,
+                      "Of the same: more rays, until the standard error of the part of a pair that is seen is below")
+          ->transform(fraction())
+          ->check(within(1e-3, 0.5))
+          ->default_str("none: as many rays as were asked for");
+  command.parse_complete_callback([samples, cells, rays, error, &method = options.method] {
     require_heeded(*samples, method, fem::Setting::samples);
     require_heeded(*cells, method, fem::Setting::resolution);
     require_heeded(*rays, method, fem::Setting::rays);
+    require_heeded(*error, method, fem::Setting::rays);
   });
 }
 
@@ -64,7 +73,7 @@ CLI::Option* add_order(CLI::App& command, fem::RadiositySettings& s, const CLI::
             s.order = order;
             if (order > 0 && method->empty()) s.form_factors = "analytic";
           },
-          "Degree of the polynomials on an element; from 1 on by analytic or gauss-lambert")
+          "Degree of the polynomials on an element; from 1 on by analytic, gauss-lambert or duffy")
       ->check(CLI::Range(0, 3));
 }
 
@@ -265,12 +274,12 @@ void add_accuracy(CLI::App& command, double& accuracy, const std::string& of) {
 
 void add_effort(CLI::App& command, fem::RadiositySettings& s) {
   add_row_tolerance(command, s.row_tolerance)->default_str("none: --quadrature-tolerance");
-  add_effort(command, EffortOptions{s.form_factors, s.samples, s.resolution, s.visibility_rays});
+  add_effort(command, EffortOptions{s.form_factors, s.samples, s.resolution, s.visibility_rays, s.visibility_error});
 }
 
 void add_effort(CLI::App& command, ViewFactorOptions& o) {
   add_row_tolerance(command, o.tolerance);
-  add_effort(command, EffortOptions{o.form_factors, o.samples, o.resolution, o.visibility_rays});
+  add_effort(command, EffortOptions{o.form_factors, o.samples, o.resolution, o.visibility_rays, o.visibility_error});
 }
 
 void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
@@ -299,7 +308,7 @@ void add_shooting(CLI::App& command, fem::RadiositySettings& s) {
   add_max_memory(command, s.max_memory);
   add_form_factors(command, s.form_factors);
   add_quadrature_tolerance(command, s.quadrature_tolerance, "an unoccluded form factor");
-  add_effort(command, EffortOptions{s.form_factors, s.samples, s.resolution, s.visibility_rays});
+  add_effort(command, EffortOptions{s.form_factors, s.samples, s.resolution, s.visibility_rays, s.visibility_error});
   command.add_option("--solver", s.solver, "The brightest shoots what it has, or what makes its residual 0")
       ->check(CLI::IsMember({"progressive", "southwell"}))
       ->capture_default_str();

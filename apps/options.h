@@ -75,6 +75,7 @@ struct ViewFactorOptions {
   double tolerance = 1e-4;  ///< on the largest row's sum of errors
   double element_size = 0;  ///< longest edge [m]; 0: one element a face
   int visibility_rays = 16, resolution = 256;
+  double visibility_error = 0;  ///< of a pair's visible part, one sigma; 0: as the rays have it
   std::uint64_t samples = 0;
   std::string closure = "none";
   std::string groups;   ///< what the factors of a .csv are summed by; empty: by nothing

@@ -30,6 +30,7 @@ results::Record settings_of(const ShootOptions& options, const CommonOptions& co
   record.add("form_factors", s.form_factors)
       .add("quadrature_tolerance", s.quadrature_tolerance)
       .add("visibility_rays", s.visibility_rays)
+      .add("visibility_error", s.visibility_error)
       .add("samples", s.samples)
       .add("resolution", s.resolution)
       .add("intersector", s.intersector)

@@ -158,6 +158,7 @@ results::Record settings_record(const fem::RadiositySettings& settings, const Ra
       .add("quadrature_tolerance", settings.quadrature_tolerance)
       .add("row_tolerance", settings.row_tolerance)
       .add("visibility_rays", settings.visibility_rays)
+      .add("visibility_error", settings.visibility_error)
       .add("samples", settings.samples)
       .add("resolution", settings.resolution)
       .add("drop_below", settings.drop_below)

@@ -173,6 +173,19 @@ ExitStatus print_forecast(const FactorForecast& forecast, bool json) {
   return success;
 }
 
+/// Of the method that was asked for, to any tolerance.  All of it outlives the maker.
+fem::MethodMaker method_maker(const ViewFactorOptions& options, const FactorRequest& request,
+                              const raycast::RayCaster& rays, std::uint64_t seed) {
+  return [&, seed](double relative) {
+    fem::FormFactorContext context{request.geometry.scene, request.elements.seeing(), rays, seed, relative,
+                                   options.visibility_rays};
+    context.samples = options.samples;
+    context.visibility_error = options.visibility_error;
+    context.resolution = options.resolution;
+    return fem::make_form_factor_method(options.form_factors, context);
+  };
+}
+
 }  // namespace
 
 ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run) {
@@ -184,13 +197,7 @@ ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& c
   if (talk) std::printf("bounding box %s\n", box_text(request.geometry.scene).c_str());
   const auto rays = raycast::make_ray_caster("embree", request.geometry.scene);
   warn_of_contacts(request.geometry.scene, *rays);
-  const fem::MethodMaker make = [&](double relative) {
-    fem::FormFactorContext context{request.geometry.scene, request.elements.seeing(), *rays, run.seed, relative,
-                                   options.visibility_rays};
-    context.samples = options.samples;
-    context.resolution = options.resolution;
-    return fem::make_form_factor_method(options.form_factors, context);
-  };
+  const fem::MethodMaker make = method_maker(options, request, *rays, run.seed);
   const fem::PointViewFactors points(request.geometry.scene, request.elements.seeing());
   if (talk || options.forecast_only) {
     const FactorForecast forecast = forecast_of(options, request, make, points, run);

@@ -83,50 +83,63 @@ void judge(const DenseSymmetric& K, const DenseSymmetric& exact, MethodScore& sc
   score.mean_row_error /= area;
 }
 
-}  // namespace
+/// What a method says that its rows are off by, at most.
+double largest_of(std::span<const double> row_errors) {
+  return *std::max_element(row_errors.begin(), row_errors.end());
+}
 
-std::vector<MethodScore> compare_methods(const FormFactorContext& context, double reference_tolerance, Run& run,
-                                         const std::function<void(const MethodScore&)>& scored) {
-  const std::vector<double> areas = areas_of(context.patches);
-  DenseSymmetric exact(areas);
-  auto start = std::chrono::steady_clock::now();
+/// Makes what all are held against.
+MethodScore score_of_reference(const FormFactorContext& context, double tolerance, DenseSymmetric& exact, Run& run) {
+  const auto start = std::chrono::steady_clock::now();
   const auto analytic = [&](double relative) {
     FormFactorContext fine = context;
     fine.tolerance = relative;
     return make_form_factor_method("analytic", fine);
   };
-  const ToleranceReport reference = assemble_to_tolerance(analytic, reference_tolerance, context.patches, exact, run);
-  MethodScore last{"analytic",
-                   core::format("rows to %g: the reference", reference_tolerance),
-                   core::seconds_since(start),
-                   0,
-                   0,
-                   0,
-                   0,
-                   {}};
-  last.stated_row_error = *std::max_element(reference.row_errors.begin(), reference.row_errors.end());
-  last.pairs = reference.pairs;
+  const ToleranceReport reference = assemble_to_tolerance(analytic, tolerance, context.patches, exact, run);
+  MethodScore score;
+  score.method = "analytic";
+  score.setting = core::format("rows to %g: the reference", tolerance);
+  score.seconds = core::seconds_since(start);
+  score.stated_row_error = largest_of(reference.row_errors);
+  score.pairs = reference.pairs;
+  return score;
+}
 
+MethodScore score_of(const Trial& trial, const FormFactorContext& context, const DenseSymmetric& exact, Run& run) {
+  FormFactorContext settings = context;
+  trial.set(settings);
+  const std::vector<double> areas = areas_of(context.patches);
+  DenseSymmetric K(areas);
+  RowErrors errors(K, areas);
+  MethodScore score;
+  score.method = trial.method;
+  score.setting = trial.setting;
+  const auto start = std::chrono::steady_clock::now();
+  const auto method = make_form_factor_method(trial.method, settings);
+  score.pairs = assemble(*method, context.patches, errors, run);
+  score.seconds = core::seconds_since(start);
+  score.stated_row_error = largest_of(errors.all());
+  judge(K, exact, score);
+  return score;
+}
+
+}  // namespace
+
+std::vector<MethodScore> compare_methods(const FormFactorContext& context, double reference_tolerance, Run& run,
+                                         const std::function<void(const MethodScore&)>& scored) {
+  DenseSymmetric exact(areas_of(context.patches));
+  MethodScore reference = score_of_reference(context, reference_tolerance, exact, run);
   std::vector<MethodScore> scores;
+  const auto add = [&](MethodScore score) {
+    scored(score);
+    scores.push_back(std::move(score));
+  };
   for (const Trial& trial : trials()) {
     run.throw_if_stopped("comparison");
-    FormFactorContext settings = context;
-    trial.set(settings);
-    DenseSymmetric K(areas);
-    RowErrors errors(K, areas);
-    MethodScore score{trial.method, trial.setting, 0, 0, 0, 0, 0, {}};
-    start = std::chrono::steady_clock::now();
-    const auto method = make_form_factor_method(trial.method, settings);
-    score.pairs = assemble(*method, context.patches, errors, run);
-    score.seconds = core::seconds_since(start);
-    const std::vector<double> stated = errors.all();
-    score.stated_row_error = *std::max_element(stated.begin(), stated.end());
-    judge(K, exact, score);
-    scored(score);
-    scores.push_back(score);
+    add(score_of(trial, context, exact, run));
   }
-  scored(last);
-  scores.push_back(last);
+  add(std::move(reference));
   return scores;
 }
 

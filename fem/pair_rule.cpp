@@ -24,9 +24,9 @@ void require_segments(const Panel& a, const Panel& b) {
 
 ProductPairRule::ProductPairRule(int points) : segments_(product(gauss_legendre(points))) {}
 
-std::vector<PairNode> ProductPairRule::nodes(const Panel& a, const Panel& b) const {
+void ProductPairRule::for_nodes(const Panel& a, const Panel& b, const Visit& visit) const {
   require_segments(a, b);
-  return segments_;
+  for (const PairNode& node : segments_) visit(node);
 }
 
 SegmentPairRule::SegmentPairRule(int points) : apart_(points) {
@@ -38,19 +38,19 @@ SegmentPairRule::SegmentPairRule(int points) : apart_(points) {
     }
 }
 
-std::vector<PairNode> SegmentPairRule::nodes(const Panel& a, const Panel& b) const {
+void SegmentPairRule::for_nodes(const Panel& a, const Panel& b, const Visit& visit) const {
   require_segments(a, b);
   for (const std::size_t end_a : {0u, 1u})
     for (const std::size_t end_b : {0u, 1u}) {
       if ((a.corner[end_a] - b.corner[end_b]).norm() > same_place * (a.measure + b.measure)) continue;
-      std::vector<PairNode> nodes = touching_;
-      for (PairNode& node : nodes) {
+      for (PairNode node : touching_) {
         if (end_a == 1) node.u_a = 1 - node.u_a;
         if (end_b == 1) node.u_b = 1 - node.u_b;
+        visit(node);
       }
-      return nodes;
+      return;
     }
-  return apart_.nodes(a, b);
+  apart_.for_nodes(a, b, visit);
 }
 
 }  // namespace interflect::fem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fem/space/space.h"
@@ -18,14 +19,16 @@ struct PairNode {
 class PairRule {
  public:
   virtual ~PairRule() = default;
-  virtual std::vector<PairNode> nodes(const Panel& a, const Panel& b) const = 0;
+  using Visit = std::function<void(const PairNode&)>;
+  /// Node by node, since there may be millions.
+  virtual void for_nodes(const Panel& a, const Panel& b, const Visit& visit) const = 0;
 };
 
 /// Products of Gauss rules of so many points a side: for panels that are farther apart than they are long.
 class ProductPairRule final : public PairRule {
  public:
   explicit ProductPairRule(int points);
-  std::vector<PairNode> nodes(const Panel& a, const Panel& b) const override;
+  void for_nodes(const Panel& a, const Panel& b, const Visit& visit) const override;
 
  private:
   std::vector<PairNode> segments_;
@@ -37,7 +40,7 @@ class ProductPairRule final : public PairRule {
 class SegmentPairRule final : public PairRule {
  public:
   explicit SegmentPairRule(int points);
-  std::vector<PairNode> nodes(const Panel& a, const Panel& b) const override;
+  void for_nodes(const Panel& a, const Panel& b, const Visit& visit) const override;
 
  private:
   ProductPairRule apart_;

@@ -25,6 +25,13 @@ namespace interflect::fem {
 
 namespace {
 
+/// What is solved, and by which rays.
+struct Problem {
+  const scene::Scene& scene;
+  const RadiositySettings& settings;
+  const raycast::RayCaster& rays;
+};
+
 /// b = e + R G^-1 K b from a fresh start.
 solvers::ColumnMatrix solve_system(const SymmetricOperator& K, const solvers::ColumnMatrix& exitance,
                                    const solvers::ColumnMatrix& reflectance, const RadiositySettings& settings,
@@ -60,7 +67,7 @@ RowSums summary_of(std::span<const double> row_sums, std::span<const double> are
   return rows;
 }
 
-/// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance. 
+/// Radiosity on the elements and on elements of twice the size, whose K is the sum of the children's, and irradiance.
 /// A solve that is stopped ends with what it has, and nothing is asked of larger elements then.
 /// @return  whether both solves converged
 bool solve_both(RadiositySolution& s, const scene::Scene& scene, const SymmetricOperator& K,
@@ -94,9 +101,9 @@ bool solve_both(RadiositySolution& s, const scene::Scene& scene, const Symmetric
 }
 
 /// Whether no ray that leaves an element, chosen by area, is lost.
-bool is_closed(const RadiositySolution& s, const scene::Scene& scene, const raycast::RayCaster& rays, Run& run) {
+bool is_closed(const RadiositySolution& s, const Problem& problem, Run& run) {
   const std::vector<Spectrum> by_area_alone(s.exitance.size());
-  return cast_lost_rays(scene, s.mesh.patches(), by_area_alone, rays, run).lost == 0;
+  return cast_lost_rays(problem.scene, s.mesh.patches(), by_area_alone, problem.rays, run).lost == 0;
 }
 
 /// Row sums repaired where that was asked for; an open scene's with `environment`.
@@ -125,12 +132,11 @@ void set_operator_record(RadiositySolution& s, const RadiosityOperator& from) {
   s.mean_dropped = dropped.mean;
 }
 
-void balance_energy(RadiositySolution& s, const scene::Scene& scene, const raycast::RayCaster& rays, bool repaired,
-                    Run& run) {
-  const LostRays lost = cast_lost_rays(scene, s.mesh.patches(), s.radiosity, rays, run);
+void balance_energy(RadiositySolution& s, const Problem& problem, Run& run) {
+  const LostRays lost = cast_lost_rays(problem.scene, s.mesh.patches(), s.radiosity, problem.rays, run);
   if (s.closed && lost.lost > 0) {
     s.closed = false;
-    if (repaired)
+    if (problem.settings.closure != "none")
       core::log::warning("closure was restored, but a few rays do leave the scene: its openings are small, not absent");
   }
   s.energy = energy_balance(s, lost);
@@ -184,7 +190,7 @@ void require_compatible(const RadiositySettings& settings) {
   if (settings.drop_below > 0) refuse("pairs left out (drop-below)");
   if (settings.stored_factors) refuse("view factors of a file, which are of constants");
   if (settings.row_tolerance > 0)
-    refuse("a tolerance of rows; that of entries (quadrature-tolerance) holds for theirs");
+    refuse("a tolerance of rows; those of entries (quadrature-tolerance, visibility-error) hold for theirs");
 }
 
 double mean_environment(const RadiositySolution& s) {
@@ -206,11 +212,12 @@ struct Elements {
   std::optional<Adaptation> adaptation;
 };
 
-Elements elements_with_factors(const scene::Scene& scene, const RadiositySettings& settings,
-                               const raycast::RayCaster& rays, StageClock& timed, Run& run) {
+Elements elements_with_factors(const Problem& problem, StageClock& timed, Run& run) {
+  const scene::Scene& scene = problem.scene;
+  const RadiositySettings& settings = problem.settings;
   if (settings.adaptive)
     return timed("adaptive elements", [&]() -> Elements {
-      AdaptedElements made = adapt_elements(scene, settings, *settings.adaptive, rays, run);
+      AdaptedElements made = adapt_elements(scene, settings, *settings.adaptive, problem.rays, run);
       return {std::move(made.mesh), std::move(made.degree), std::move(made.from), std::move(made.adaptation)};
     });
   mesh::ElementMesh mesh = timed("mesh", [&] { return elements_of(scene, settings); });
@@ -218,18 +225,48 @@ Elements elements_with_factors(const scene::Scene& scene, const RadiositySetting
   RadiositySettings of_blocks = settings;
   of_blocks.order = order_of_blocks(settings, mesh.patches());
   RadiosityOperator from =
-      timed("form factors", [&] { return assemble_operator(scene, mesh.patches(), rays, of_blocks, run); });
+      timed("form factors", [&] { return assemble_operator(scene, mesh.patches(), problem.rays, of_blocks, run); });
   return {std::move(mesh), {}, std::move(from), std::nullopt};
+}
+
+/// The elements with their materials, still without radiosity.
+RadiositySolution unsolved(Elements& elements, const Problem& problem) {
+  const double size =
+      problem.settings.adaptive ? elements.mesh.longest_edge() : element_size_of(problem.scene, problem.settings);
+  RadiositySolution s(std::move(elements.mesh), size);
+  s.adaptation = std::move(elements.adaptation);
+  ElementMaterials materials = materials_of(problem.scene, s.mesh.patches());
+  s.exitance = std::move(materials.exitance);
+  s.reflectance = std::move(materials.reflectance);
+  set_operator_record(s, elements.from);
+  return s;
+}
+
+/// What rows were before closure was restored, and what it was told of an open scene's openings.
+struct Rows {
+  std::vector<double> sum_before;
+  std::optional<EnvironmentColumn> environment;
+
+  const EnvironmentColumn* beyond() const { return environment ? &*environment : nullptr; }
+};
+
+/// Finds out whether the scene is closed, and restores closure where that was asked for.
+void close_rows(RadiositySolution& s, RadiosityOperator& from, const Problem& problem, Rows& rows, Run& run) {
+  const auto& [scene, settings, rays] = problem;
+  const bool repair = settings.closure != "none";
+  s.closed = is_closed(s, problem, run);
+  if (repair && !s.closed)
+    rows.environment = cast_environment_column(scene, s.mesh.patches(), rays, settings.environment_rays, run);
+  close(s, from, rows.beyond(), settings, run);
+  s.row_sum = repair ? from.K->row_sums(run) : rows.sum_before;
 }
 
 /// A scene's equations, whatever shines.
 struct Equations {
-  const scene::Scene& scene;
-  const RadiositySettings& settings;
+  const Problem& of;
   const RadiosityOperator& from;
   std::span<const int> degree;  ///< of polynomials on elements, where they differ
-  std::span<const double> row_sum_before;
-  const EnvironmentColumn* environment;
+  const Rows& rows;
 };
 
 /// What a solve leaves for the estimate of its error.
@@ -239,31 +276,30 @@ struct Found {
 };
 
 Found solve_with(const Equations& equations, RadiositySolution& s, Run& run) {
-  const RadiositySettings& settings = equations.settings;
-  if (settings.order == 0) return {solve_both(s, equations.scene, *equations.from.K, settings, run), {}};
+  const auto& [scene, settings, rays] = equations.of;
+  if (settings.order == 0) return {solve_both(s, scene, *equations.from.K, settings, run), {}};
   RadiositySettings of_blocks = settings;
   of_blocks.order = order_of_blocks(settings, s.mesh.patches());
-  PolynomialChange change =
-      solve_polynomials(s, equations.scene, *equations.from.blocks, equations.degree, of_blocks, run);
+  PolynomialChange change = solve_polynomials(s, scene, *equations.from.blocks, equations.degree, of_blocks, run);
   const bool converged = change.converged;
   return {converged, std::move(change)};
 }
 
 void estimate_with(const Equations& equations, const Found& found, RadiositySolution& s, Run& run) {
-  const RadiositySettings& settings = equations.settings;
+  const RadiositySettings& settings = equations.of.settings;
   const bool counted = settings.row_tolerance > 0 || settings.stored_factors;
   estimate_errors(s,
-                  {*equations.from.K, equations.from.blocks.get(), equations.row_sum_before,
+                  {*equations.from.K, equations.from.blocks.get(), equations.rows.sum_before,
                    settings.quadrature_tolerance, counted ? equations.from.row_bound : std::span<const double>(),
-                   equations.environment, found.converged, settings.order > 0 ? &found.change : nullptr},
-                  equations.scene.channel_count(), run);
+                   equations.rows.beyond(), found.converged, settings.order > 0 ? &found.change : nullptr},
+                  equations.of.scene.channel_count(), run);
 }
 
 /// What a light group does alone.  @param dark  a solution without light
 RadiositySolution solution_of(const std::string& group, const Equations& equations, const RadiositySolution& dark,
                               Run& run) {
   RadiositySolution s = dark;
-  leave_group_alone(s.exitance, group, equations.scene, s.mesh.patches());
+  leave_group_alone(s.exitance, group, equations.of.scene, s.mesh.patches());
   const Found found = solve_with(equations, s, run);
   Run rest = run.to_the_end();
   estimate_with(equations, found, s, rest);
@@ -278,33 +314,18 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   std::vector<StageCost> stages;
   StageClock timed(stages);
   const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
-  Elements elements = elements_with_factors(scene, settings, *rays, timed, asked);
+  const Problem problem{scene, settings, *rays};
+  Elements elements = elements_with_factors(problem, timed, asked);
   const bool passes_stopped = elements.adaptation && elements.adaptation->why == AdaptiveStop::asked_to_stop;
   Run run = passes_stopped ? asked.to_the_end() : asked;  // to the end with the elements that there are
   RadiosityOperator& from = elements.from;
-  const double size = settings.adaptive ? elements.mesh.longest_edge() : element_size_of(scene, settings);
-  RadiositySolution s(std::move(elements.mesh), size);
-  s.adaptation = std::move(elements.adaptation);
-  ElementMaterials materials = materials_of(scene, s.mesh.patches());
-  s.exitance = std::move(materials.exitance);
-  s.reflectance = std::move(materials.reflectance);
-  const SymmetricOperator& K = *from.K;
-  set_operator_record(s, from);
-  const std::vector<double> row_sum_before = K.row_sums(run);
-  const bool repair = settings.closure != "none";
-  std::optional<EnvironmentColumn> environment;
-  timed("closure", [&] {
-    s.closed = is_closed(s, scene, *rays, run);
-    if (repair && !s.closed)
-      environment = cast_environment_column(scene, s.mesh.patches(), *rays, settings.environment_rays, run);
-    close(s, from, environment ? &*environment : nullptr, settings, run);
-    s.row_sum = repair ? K.row_sums(run) : row_sum_before;
-  });
-  s.rows = summary_of(s.row_sum, K.gram());
-  require_row_sums(scene, s.mesh.patches(), s.row_sum, K, run);
+  RadiositySolution s = unsolved(elements, problem);
+  Rows rows{from.K->row_sums(run), std::nullopt};
+  timed("closure", [&] { close_rows(s, from, problem, rows, run); });
+  s.rows = summary_of(s.row_sum, from.K->gram());
+  require_row_sums(scene, s.mesh.patches(), s.row_sum, *from.K, run);
   RadiositySolution dark = settings.light_groups ? s : RadiositySolution(mesh::ElementMesh({}), 0);  // but for lights
-  const Equations equations{scene,           settings,       from,
-                            elements.degree, row_sum_before, environment ? &*environment : nullptr};
+  const Equations equations{problem, from, elements.degree, rows};
   const Found found = timed("solve", [&] { return solve_with(equations, s, run); });
   Run rest = run.to_the_end();  // what there is is written, however soon the solve was stopped
   timed("error estimate", [&] { estimate_with(equations, found, s, rest); });
@@ -313,7 +334,7 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
       for (const std::string& group : measure::light_groups(scene))
         s.of_groups.push_back(solution_of(group, equations, dark, run));
     });
-  timed("energy balance", [&] { balance_energy(s, scene, *rays, repair, rest); });
+  timed("energy balance", [&] { balance_energy(s, problem, rest); });
   s.stages = std::move(stages);
   return s;
 }

@@ -19,7 +19,7 @@ namespace interflect::fem {
 struct RadiositySettings {
   double element_size = 0;  ///< longest edge [m]; 0: see element_size_of
   std::string form_factors = "gauss-lambert";
-  int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic` or `gauss-lambert`
+  int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic`, `gauss-lambert` or `duffy`
   Projection projection = Projection::galerkin;
   std::string solver = "automatic";
   solvers::SolverSettings solver_settings;
@@ -28,6 +28,7 @@ struct RadiositySettings {
   double quadrature_tolerance = 1e-3;  ///< relative, of an entry
   double row_tolerance = 0;  ///< on the largest row's sum of errors, max_i sum_j |dF_ij|; 0: none but the entries'
   int visibility_rays = 16;
+  double visibility_error = 0;  ///< standard error of the visible part of a pair that rays are added up to; 0: none are
   std::uint64_t samples = 0;  ///< of Monte Carlo methods: a pair, a row, or in all; 0: as tolerances ask
   int resolution = 256;       ///< cells across a hemicube or a plane
   double drop_below = 0;  ///< entries with F_ij and F_ji below it are left out, and accounted for; 0: all are stored

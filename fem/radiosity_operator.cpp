@@ -34,6 +34,7 @@ class BlockSink final : public ExchangeSink {
     blocks_.add(a, b, entry);
     if (a % functions_ == 0 && b % functions_ == 0) constants_.add(a / functions_, b / functions_, entry);
   }
+  Index functions() const { return functions_; }
 
  private:
   ExchangeSink &constants_, &blocks_;
@@ -131,6 +132,35 @@ std::vector<double> without_noise(std::vector<double> row_errors, const Symmetri
   return row_errors;
 }
 
+/// Elements that were there before, then those that are new.
+struct KeptFirst {
+  std::vector<Index> order;
+  Index kept;
+};
+KeptFirst kept_first(std::span<const Index> same_as) {
+  KeptFirst elements;
+  for (std::size_t i = 0; i < same_as.size(); ++i)
+    if (same_as[i] >= 0) elements.order.push_back(static_cast<Index>(i));
+  elements.kept = std::ssize(elements.order);
+  for (std::size_t i = 0; i < same_as.size(); ++i)
+    if (same_as[i] < 0) elements.order.push_back(static_cast<Index>(i));
+  return elements;
+}
+
+/// Blocks of pairs that were there before, without noise.
+void copy_kept(const SymmetricOperator& before, std::span<const Index> same_as, const KeptFirst& elements,
+               BlockSink& sink, Run& run) {
+  const Index f = sink.functions();
+  run.threads.for_blocks(elements.kept, 1, [&](Index k, Index) {
+    const Index i = elements.order[static_cast<std::size_t>(k)], was_i = same_as[static_cast<std::size_t>(i)];
+    for (Index l = k + 1; l < elements.kept; ++l) {
+      const Index j = elements.order[static_cast<std::size_t>(l)], was_j = same_as[static_cast<std::size_t>(j)];
+      for (Index a = 0; a < f; ++a)
+        for (Index b = 0; b < f; ++b) sink.add(i * f + a, j * f + b, {before.entry(was_i * f + a, was_j * f + b)});
+    }
+  });
+}
+
 }  // namespace
 
 FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
@@ -140,6 +170,7 @@ FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const
   context.resolution = settings.resolution;
   context.order = settings.order;
   context.samples = settings.samples;
+  context.visibility_error = settings.visibility_error;
   return context;
 }
 
@@ -178,37 +209,22 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
                                    const RadiositySettings& settings, Run& run) {
   PolynomialOperator polynomials(patches, settings.order);
   BlockSink sink = polynomials.sink();
-  std::vector<Index> order;  // those that stay, then those that are new
-  for (std::size_t i = 0; i < same_as.size(); ++i)
-    if (same_as[i] >= 0) order.push_back(static_cast<Index>(i));
-  const auto kept = static_cast<Index>(order.size());
-  for (std::size_t i = 0; i < same_as.size(); ++i)
-    if (same_as[i] < 0) order.push_back(static_cast<Index>(i));
+  const KeptFirst elements = kept_first(same_as);
   std::vector<scene::SurfacePatch> reordered;
   std::vector<int> reordered_degrees;
-  for (const Index i : order) {
+  for (const Index i : elements.order) {
     reordered.push_back(patches[static_cast<std::size_t>(i)]);
     reordered_degrees.push_back(degrees[static_cast<std::size_t>(i)]);
   }
-
-  const Index f = polynomials.functions;
-  run.threads.for_blocks(kept, 1, [&](Index k, Index) {
-    const Index i = order[static_cast<std::size_t>(k)], was_i = same_as[static_cast<std::size_t>(i)];
-    for (Index l = k + 1; l < kept; ++l) {
-      const Index j = order[static_cast<std::size_t>(l)], was_j = same_as[static_cast<std::size_t>(j)];
-      for (Index a = 0; a < f; ++a)
-        for (Index b = 0; b < f; ++b)
-          sink.add(i * f + a, j * f + b, {before.blocks->entry(was_i * f + a, was_j * f + b)});  // without noise
-    }
-  });
+  copy_kept(*before.blocks, same_as, elements, sink, run);
   FormFactorContext context = form_factor_context(scene, reordered, rays, settings, run.seed);
   context.degrees = reordered_degrees;
   const auto method = make_form_factor_method(settings.form_factors, context);
   require_memory(scene, static_cast<double>(patches.size()), settings, method->granularity());
-  Reordered to(sink, order, f);
+  Reordered to(sink, elements.order, polynomials.functions);
   RadiosityOperator out;
   out.pairs = before.pairs;
-  out.pairs += assemble_new(*method, reordered, kept, to, run);
+  out.pairs += assemble_new(*method, reordered, elements.kept, to, run);
   out.K = std::move(polynomials.K);
   out.blocks = std::move(polynomials.blocks);
   return out;

@@ -4,6 +4,7 @@
 #include "fem/form_factor/analytic.h"
 #include "fem/form_factor/analytic_moments.h"
 #include "fem/form_factor/area_to_area.h"
+#include "fem/form_factor/duffy.h"
 #include "fem/form_factor/gauss_lambert.h"
 #include "fem/form_factor/global_lines.h"
 #include "fem/form_factor/hemicube.h"
@@ -36,8 +37,9 @@ std::unique_ptr<FormFactorMethod> make_gauss_lambert(const FormFactorContext& co
 }
 
 constexpr Entry catalogue[] = {{"analytic", make_analytic, Setting::tolerance},
-                               {"hybrid", make<Hybrid>, Setting::rays},
+                               {"hybrid", make<Hybrid>, Setting::tolerance},
                                {"gauss-lambert", make_gauss_lambert, Setting::rays},
+                               {"duffy", make<Duffy>, Setting::rays},
                                {"area-to-area", make<AreaToArea>, Setting::samples},
                                {"hemisphere-rays", make<HemisphereRays>, Setting::samples},
                                {"global-lines", make<GlobalLines>, Setting::samples},
@@ -73,7 +75,7 @@ std::unique_ptr<FormFactorMethod> make_form_factor_method(const std::string& nam
   auto method = entry_of(name).make(context);
   if (method->highest_order() < context.order)
     throw core::InputError("form factors by '" + name + "'",
-                           "they are of constants: --order 0, or analytic or gauss-lambert, expected");
+                           "they are of constants: --order 0, or analytic, gauss-lambert or duffy, expected");
   return method;
 }
 

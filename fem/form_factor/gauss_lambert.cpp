@@ -20,7 +20,8 @@ class GaussLambert::Rays final : public PairOcclusion {
 };
 
 GaussLambert::GaussLambert(const FormFactorContext& context)
-    : PairMethod(context), visibility_(context.patches, context.rays, context.visibility_rays, context.seed) {}
+    : PairMethod(context),
+      visibility_(context.patches, context.rays, context.visibility_rays, context.seed, context.visibility_error) {}
 
 std::unique_ptr<PairWork> GaussLambert::work() const { return std::make_unique<Rays>(*this); }
 

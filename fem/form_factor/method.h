@@ -83,6 +83,7 @@ struct FormFactorContext {
   std::span<const int> degrees{};
   std::uint64_t samples =
       0;  ///< of a Monte Carlo method: a pair, a row, or in all; 0: as many as the tolerance asks for
+  double visibility_error = 0;  ///< standard error of a pair's visible part that rays are added up to; 0: none are
 };
 
 /// @throws core::InputError with the names known

@@ -71,27 +71,38 @@ CellPermutations::Pairing CellPermutations::pairing(const core::RandomBlock& ran
 }
 
 VisibilitySampler::VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
-                                     int rays_per_pair, std::uint64_t seed)
-    : maps_(patches.begin(), patches.end()), rays_(rays), seed_(core::derived_seed(seed, "visibility")) {
+                                     int rays_per_pair, std::uint64_t seed, double largest_error)
+    : maps_(patches.begin(), patches.end()),
+      rays_(rays),
+      seed_(core::derived_seed(seed, "visibility")),
+      largest_error_(largest_error) {
   const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(std::max(rays_per_pair, 4)))));
   for (const int times : {1, 2, 4}) permutations_.emplace_back(times * side, core::derived_seed(seed, "strata"));
   for (const auto& patch : patches) normals_.push_back(patch.normal());
 }
 
 void VisibilitySampler::generate(Index i, Index j, Effort effort, Workspace& w) const {
+  w.segments.clear();
+  w.weights.clear();
+  w.blocked.clear();
+  append(i, j, effort, 0, w);
+}
+
+/// @param set  has random numbers of its own
+void VisibilitySampler::append(Index i, Index j, Effort effort, std::uint32_t set, Workspace& w) const {
   const CellPermutations& strata = permutations_[static_cast<std::size_t>(effort)];
   const std::uint32_t m = strata.side(), n = m * m;
   const std::uint64_t pair = (static_cast<std::uint64_t>(i) << 32) | static_cast<std::uint64_t>(j);
   const ElementMap &onto_i = maps_[static_cast<std::size_t>(i)], &onto_j = maps_[static_cast<std::size_t>(j)];
   const Vec3 normal_i = normals_[static_cast<std::size_t>(i)], normal_j = normals_[static_cast<std::size_t>(j)];
-  const CellPermutations::Pairing cells = strata.pairing(core::random_block(seed_, 1, pair, 0));
-  w.segments.resize(n);
-  w.weights.resize(n);
-  std::size_t used = 0;
+  const CellPermutations::Pairing cells = strata.pairing(core::random_block(seed_, 2 * set + 1, pair, 0));
+  std::size_t used = w.segments.size();
+  w.segments.resize(used + n);
+  w.weights.resize(used + n);
   for (std::uint32_t first = 0; first < n; first += PointLanes::count) {
     Words bits_i, bits_j;
     for (std::uint32_t l = 0; l < PointLanes::count; l += 2) {
-      const core::RandomBlock block = core::random_block(seed_, 0, pair, (first + l) / 2);
+      const core::RandomBlock block = core::random_block(seed_, 2 * set, pair, (first + l) / 2);
       bits_i[l] = block[0], bits_j[l] = block[1], bits_i[l + 1] = block[2], bits_j[l + 1] = block[3];
     }
     const JitteredCells in_i(cells.row + first, cells.column + first, m, 0, 0, bits_i);
@@ -111,10 +122,25 @@ void VisibilitySampler::generate(Index i, Index j, Effort effort, Workspace& w) 
 
 SampledVisibility VisibilitySampler::operator()(Index i, Index j, Effort effort, Workspace& w) const {
   generate(i, j, effort, w);
-  const std::size_t n = w.segments.size();
+  SampledVisibility V = look(w);
+  for (std::uint32_t set = 1, most_sets = most_rays; largest_error_ > 0 && V.standard_error > largest_error_; ++set) {
+    if (w.segments.size() >= most_rays || set > most_sets) break;
+    // Errors fall as one over the root of the number.
+    const double times = std::pow(V.standard_error / largest_error_, 2), wanted = times * static_cast<double>(V.rays);
+    append(i, j, Effort::sixteenfold, set, w);
+    while (static_cast<double>(w.segments.size()) < std::min(wanted, double(most_rays)) && set < most_sets)
+      append(i, j, Effort::sixteenfold, ++set, w);
+    V = look(w);
+  }
+  return V;
+}
+
+/// Casts what has not been cast, and estimates from all.
+SampledVisibility VisibilitySampler::look(Workspace& w) const {
+  const std::size_t before = w.blocked.size(), n = w.segments.size();
   if (n == 0) return {0.5, 0.5, 0};  // a sliver that no pair of points found: nothing is known
   w.blocked.resize(n);
-  rays_.occluded(w.segments, w.blocked);
+  rays_.occluded(std::span(w.segments).subspan(before), std::span(w.blocked).subspan(before));
   return estimated_visibility(w.weights, w.blocked);
 }
 

@@ -70,29 +70,38 @@ Effort effort_for(double form_factor);
 /// block.
 class VisibilitySampler {
  public:
-  /// What one thread needs; reused from pair to pair.
+  /// What one thread needs; reused from pair to pair: the rays of the last one.
   struct Workspace {
     std::vector<raycast::Segment> segments;
     std::vector<double> weights;
     std::vector<std::uint8_t> blocked;
   };
+  static constexpr std::size_t most_rays = 1 << 18;  ///< a pair, where an error is asked for
 
   /// @param rays_per_pair  for Effort::single: m² is the next square, at least 4
   /// @param seed           of the run: it is made one of visibility's own here
+  /// @param largest_error  standard error of V up to which a pair gets more rays, in sets that are stratified each, until
+  ///                       it has `most_rays`; 0: none.  That their number depends on what the first ones found moves
+  ///                       the mean of V by O(1/n).
   VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int rays_per_pair,
-                    std::uint64_t seed);
+                    std::uint64_t seed, double largest_error = 0);
 
   /// @param i < j  elements
   SampledVisibility operator()(Index i, Index j, Effort effort, Workspace& workspace) const;
 
-  /// The rays and their weights alone, in the order in which they are cast; without pairs of points that face away.
+  /// The first rays and their weights alone, in the order in which they are cast; without pairs of points that face
+  /// away.
   void generate(Index i, Index j, Effort effort, Workspace& workspace) const;
 
  private:
+  void append(Index i, Index j, Effort effort, std::uint32_t set, Workspace& workspace) const;
+  SampledVisibility look(Workspace& workspace) const;
+
   std::vector<ElementMap> maps_;
   std::vector<Vec3> normals_;
   const raycast::RayCaster& rays_;
   std::uint64_t seed_;
+  double largest_error_;
   std::vector<CellPermutations> permutations_;  ///< by effort
 };
 

@@ -57,8 +57,8 @@ double PlaneBasis::largest_on(std::span<const Vec3> ring) const {
   }
   std::array<double, most_functions> powers;
   monomials(order_, xi, eta, powers);
-  return std::max(1.0,
-                  (coefficients_.cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(powers.data(), size())).maxCoeff());
+  const Values most = coefficients_.cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(powers.data(), size());
+  return std::max(1.0, *std::max_element(most.begin(), most.end()));
 }
 
 PlaneBasis::Values PlaneBasis::at(const Vec3& y) const {

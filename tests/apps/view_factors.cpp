@@ -210,7 +210,7 @@ TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
     EXPECT_GE(m.at("largest_row_error"), m.at("mean_row_error").get<double>() * (1 - 1e-12));
   }
   EXPECT_EQ(names,
-            (std::set<std::string>{"analytic", "area-to-area", "gauss-lambert", "global-lines", "hemicube",
+            (std::set<std::string>{"analytic", "area-to-area", "duffy", "gauss-lambert", "global-lines", "hemicube",
                                    "hemicube-max", "hemicube-midpoint", "hemisphere-rays", "hybrid", "single-plane"}));
   EXPECT_TRUE(contains(read_file(folder / "out/form_factors.csv"), "method,setting,seconds,"));
 }

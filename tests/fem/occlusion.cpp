@@ -95,6 +95,41 @@ TEST(Occlusion, standard_errors_of_visibility_are_honest) {
   EXPECT_LE(beyond_3, pairs / 100);
 }
 
+// Whatever the pair: rays are added until the stated error is the one asked for, and deviations from exact occlusion
+// are no larger.  Deviations of pairs that share a wall's elements are nearly independent; their mean is held to five
+// standard errors of as many.
+TEST(Occlusion, rays_are_added_up_to_the_error_that_is_asked_for) {
+  Room room = plates_with_screen(4, {.3, .15, .45});
+  const auto scene = room.finish();
+  const auto caster = raycast::make_ray_caster("embree", scene);
+  const PairIntegrator unoccluded(room.patches, 1e-7);
+  test::MatrixSink exact(room.patches.size());
+  core::LocalRun run(1, 1);
+  const ElementBlock all{room.patches, 0, std::ssize(room.patches)};
+  make_form_factor_method("analytic", {scene, room.patches, *caster, 1, 1e-7})->exchange(all, all, exact, run.get());
+  for (const double asked : {.05, .01}) {
+    const VisibilitySampler sampler(room.patches, *caster, 4, 11, asked);
+    VisibilitySampler::Workspace workspace;
+    double sum = 0, squares = 0, rays = 0;
+    int pairs = 0;
+    for (Index i = 0; i < 16; ++i)
+      for (Index j = 16; j < 32; ++j) {
+        const SampledVisibility v = sampler(i, j, Effort::single, workspace);
+        EXPECT_LE(v.standard_error, asked) << i << ' ' << j;
+        EXPECT_EQ(v.rays, std::ssize(workspace.segments));
+        const double V = exact.K(i, j) / unoccluded(i, j).value;
+        if (V < 1e-6 || V > 1 - 1e-6) continue;
+        const double z = (v.visible - V) / asked;
+        sum += z, squares += z * z, rays += v.rays, ++pairs;
+      }
+    ASSERT_GT(pairs, 100);
+    EXPECT_LT(std::sqrt(squares / pairs), 1.05) << asked;
+    EXPECT_GT(std::sqrt(squares / pairs), .3) << "more rays than it takes";
+    EXPECT_LT(std::abs(sum) / pairs, 5 / std::sqrt(pairs)) << asked;
+    EXPECT_LT(rays / pairs, 1.5 * .25 / (asked * asked) + 256) << "V (1 - V) / s², of which sets of 64 are made";
+  }
+}
+
 // A leak would show here: nothing passes a wall.
 TEST(Occlusion, a_wall_between_two_rooms_lets_nothing_through) {
   Room room;

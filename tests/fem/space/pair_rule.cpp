@@ -13,9 +13,10 @@ namespace {
 double exchange(const Panel& a, const Panel& b, const PairRule& rule) {
   const FlatlandKernel kernel;
   double sum = 0;
-  for (const PairNode& node : rule.nodes(a, b))
+  rule.for_nodes(a, b, [&](const PairNode& node) {
     sum += node.weight * a.measure * b.measure *
            kernel(point_on(a.ring(), node.u_a, 0), a.normal, point_on(b.ring(), node.u_b, 0), b.normal);
+  });
   return sum;
 }
 
@@ -57,7 +58,7 @@ TEST(SegmentPairRule, of_segments_apart_converges_to_crossed_strings) {
 TEST(PairRule, of_other_panels_is_refused) {
   Panel triangle = segment_panel({0, 0, 0}, {1, 0, 0});
   triangle.corners = 3;
-  EXPECT_THROW(ProductPairRule(2).nodes(triangle, triangle), core::PreconditionError);
+  EXPECT_THROW(ProductPairRule(2).for_nodes(triangle, triangle, [](const PairNode&) {}), core::PreconditionError);
 }
 
 // In flatland nothing depends on z.

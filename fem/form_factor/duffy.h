@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+
+#include "fem/form_factor/pair_method.h"
+#include "fem/form_factor/pair_moments.h"
+#include "fem/form_factor/visibility.h"
+#include "fem/polygon_pair_rule.h"
+
+namespace interflect::fem {
+
+/// Blocks of K by quadrature on both elements at once and nothing else: Galerkin's integrals of the plain kernel in
+/// coordinates that take its singularity away (polygon_pair_rule.h), in ever more points until two rules agree.  It
+/// shares no formula with the closed forms of the other methods, which is what it is for.  Pairs that something may
+/// hide get rays, as in `gauss-lambert`.
+///
+/// Errors are estimated from the last two changes from rule to rule.  Pairs that no rule brings to the tolerance, as
+/// where elements meet at a few degrees, say so.
+/// Test: tests/fem/space/duffy.cpp
+class Duffy final : public PairMethod {
+ public:
+  explicit Duffy(const FormFactorContext& context);
+  std::string name() const override { return "duffy"; }
+  int highest_order() const override { return ElementBasis::highest_order; }
+
+  /// As if nothing lay between.
+  PairMoments block(Index i, Index j, const PairIntegral& K) const;
+
+ private:
+  static constexpr std::array rule_points = {3, 5, 7, 9, 11, 13, 15, 17, 19};
+
+  class Work;
+  std::unique_ptr<PairWork> work() const override;
+  const PlaneBasis& basis(Index i) const { return bases_[static_cast<std::size_t>(i)]; }
+  void write(Index i, Index j, const PairMoments& block, double standard_error, ExchangeSink& sink) const;
+
+  Space space_;  ///< relative to `ElementShapes::origin`
+  std::vector<PlaneBasis> bases_;
+  std::vector<PolygonPairRule> rules_;
+  VisibilitySampler visibility_;
+};
+
+}  // namespace interflect::fem
