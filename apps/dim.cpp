@@ -45,6 +45,7 @@ results::Record record_of(const SolvedScene& solved, const results::LightGroups&
       .add("outputs", std::move(outputs))
       .add("elements", solved.solution.mesh.size())
       .add("mean_irradiance", error.mean_irradiance)
+      .add("mean_irradiance_error", error.mean_error)
       .add("relative_error_l2", error.relative_l2)
       .add("relative_noise_l2", error.relative_noise_l2);
 }
@@ -72,7 +73,7 @@ ExitStatus dim(const DimOptions& options, const CommonOptions& common, Run&) {
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)
-    std::printf("%s%s\nwritten to %s\n", table_of(all, factors, solved.scene).c_str(), sensors_text(solved).c_str(),
+    std::printf("%s%s\nwritten to %s\n", table_of(all, factors, solved.scene).c_str(), means_text(solved).c_str(),
                 out.string().c_str());
   return success;
 }

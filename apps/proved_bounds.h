@@ -24,6 +24,9 @@ std::unique_ptr<ProvedBounds> proved_bounds(const SolvedScene& solved, double ma
 /// How far the truth of a sensor's mean may be from a number, weighed over the channels.
 double proved_error(const SolvedScene& solved, const ProvedBounds& bounds, const std::string& sensor, double mean);
 
+/// The same of the mean irradiance of all elements, by area.
+double proved_error(const SolvedScene& solved, const ProvedBounds& bounds, double mean);
+
 /// "bounds      elements' mean irradiance is known within 3.12 % (mean of all, guaranteed); 12 s"
 std::string bounds_text(const SolvedScene& solved, const ProvedBounds& bounds);
 results::Record bounds_record(const SolvedScene& solved, const ProvedBounds& bounds);

@@ -87,6 +87,7 @@ class Shooting {
         .add("unshot", progressive_.unshot_fraction(shots_))
         .add("stopped", solvers::describe(report_.why))
         .add("mean_irradiance", error.mean_irradiance)
+        .add("mean_irradiance_error", error.mean_error)
         .add("relative_error_l2", error.relative_l2)
         .add("relative_noise_l2", error.relative_noise_l2)
         .add("seconds", seconds())
@@ -95,15 +96,13 @@ class Shooting {
   }
 
   std::string text() const {
-    const fem::ErrorSummary error = fem::summarise_error(solved_.solution, solved_.scene);
     return core::format(
         "\n%s elements, of which %td emit\n%td shots in %s, %s: %s of all that is emitted is unshot\n"
-        "irradiance  mean %.5g %s, error about %s (L2, estimated) and noise %s\n%s",
+        "%s%s",
         core::format_count(static_cast<unsigned long long>(solved_.solution.mesh.size())).c_str(),
         progressive_.emitting(), shots_.count(), core::format_duration(seconds()).c_str(),
         solvers::describe(report_.why).c_str(), core::format_percent(progressive_.unshot_fraction(shots_)).c_str(),
-        error.mean_irradiance, solved_.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
-        core::format_percent(error.relative_noise_l2).c_str(), sensors_text(solved_).c_str());
+        irradiance_text(solved_).c_str(), means_text(solved_).c_str());
   }
 
  private:

@@ -218,6 +218,7 @@ results::Record summary_record(const SolvedScene& solved, const SolveOptions& op
       .add("solver", solver_record(solution))
       .add("energy", energy_record(solution.energy, channels))
       .add("mean_irradiance", error.mean_irradiance)
+      .add("mean_irradiance_error", error.mean_error)
       .add("relative_error_l2", error.relative_l2)
       .add("relative_noise_l2", error.relative_noise_l2)
       .add("sensors", sensor_records(solved))
@@ -272,12 +273,21 @@ void write_solution(const SolvedScene& solved, const SolveOptions& options, cons
   write_tables_and_field(solved, options.out, options.pictures);
 }
 
-std::string sensors_text(const SolvedScene& solved) {
-  if (solved.points.empty()) return "";
+std::string mean_line(const SolvedScene& solved) {
+  const fem::ErrorSummary error = fem::summarise_error(solved.solution, solved.scene);
+  std::optional<double> proved;
+  if (solved.bounds) proved = proved_error(solved, *solved.bounds, error.mean_irradiance);
+  return goal_line("E_avg(all surfaces)", error.mean_irradiance, error.mean_error, solved.scene.irradiance_unit(),
+                   proved) +
+         "\n";
+}
+
+std::string means_text(const SolvedScene& solved) {
+  if (solved.points.empty()) return "\n" + mean_line(solved);
   const std::string unit = solved.scene.irradiance_unit();
   const fem::Goal* goal = solved.solution.adaptation ? &solved.solution.adaptation->goal : nullptr;
   Table table({"sensor", "points", "min " + unit, "mean " + unit, "max " + unit, "U0"});
-  std::string means;
+  std::string means = mean_line(solved);
   for (const auto& s : photometry::summarise(solved.scene, solved.points, solved.at_points)) {
     const auto with_error = [](double value, double error) {
       return core::format("%.4g +- %.2g", value, core::rounded_up(error, 2));
@@ -291,6 +301,13 @@ std::string sensors_text(const SolvedScene& solved) {
     means += goal_line("E_avg(" + s.sensor + ")", s.mean, s.error, unit.c_str(), proved) + "\n";
   }
   return "\n" + table.text() + "\n" + means;
+}
+
+std::string irradiance_text(const SolvedScene& solved) {
+  const fem::ErrorSummary error = fem::summarise_error(solved.solution, solved.scene);
+  return core::format("irradiance  elements are off by about %s (L2, estimated) and have noise of %s\n",
+                      core::format_percent(error.relative_l2).c_str(),
+                      core::format_percent(error.relative_noise_l2).c_str());
 }
 
 /// @param samples  its residual is noise
@@ -307,7 +324,6 @@ std::string solver_text(const solvers::SolverReport& report, bool samples) {
 
 std::string solution_text(const SolvedScene& solved) {
   const RadiositySolution& s = solved.solution;
-  const fem::ErrorSummary error = fem::summarise_error(s, solved.scene);
   std::string text = core::format("\nelements    %s, edges up to %.4g m, %s\n",
                                   core::format_count(static_cast<unsigned long long>(s.mesh.size())).c_str(),
                                   s.mesh.longest_edge(), core::format_bytes(s.bytes).c_str());
@@ -316,16 +332,14 @@ std::string solution_text(const SolvedScene& solved) {
     text += core::format("rows        sum_j F_ij: mean %.6f, from %.6f to %.6f\n", s.rows.mean, s.rows.lowest,
                          s.rows.highest);
   text += matrix_text(s);
-  text += core::format("irradiance  mean %.5g %s, error about %s (L2, estimated) and noise %s\n", error.mean_irradiance,
-                       solved.scene.irradiance_unit(), core::format_percent(error.relative_l2).c_str(),
-                       core::format_percent(error.relative_noise_l2).c_str());
+  text += irradiance_text(solved);
   if (solved.bounds) text += bounds_text(solved, *solved.bounds);
   if (solved.residual) text += residual_text(solved, *solved.residual);
   text += solver_text(s.solver, s.row_sum.empty());
   text += "time        ";
   for (const fem::StageCost& stage : s.stages)
     text += core::format("%s %s  ", stage.stage.c_str(), core::format_duration(stage.seconds).c_str());
-  text += "\n" + sensors_text(solved);
+  text += "\n" + means_text(solved);
   if (s.adaptation) text += "\n" + adaptation_text(*s.adaptation, solved.scene);
   return text;
 }

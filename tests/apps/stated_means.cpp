@@ -67,7 +67,7 @@ TEST(StatedMean, has_an_error_that_covers_a_finer_solve) {
   for (const auto& way : std::vector<std::vector<std::string>>{{"--element-size", "1"},
                                                                {"--element-size", "1", "--order", "1"},
                                                                {"--target-error", "1%", "--goal", "shade"}})
-    for (const std::string out = solved(way); const char* sensor : {"plane", "shade"}) {
+    for (const std::string out = solved(way); const char* sensor : {"plane", "shade", "all surfaces"}) {
       const std::optional<Stated> stated = stated_of(out, sensor), better = stated_of(finer, sensor);
       ASSERT_TRUE(stated && better) << out << finer;
       EXPECT_LE(std::abs(stated->value - better->value), stated->error) << sensor << '\n' << out;
