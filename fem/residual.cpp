@@ -17,14 +17,35 @@ Spectrum amplification(const RadiositySolution& s, int channels) {
   return out;
 }
 
+/// Where r is looked at: at Gauss nodes, whose weights norms are sums with, and beside corners and edges, where what
+/// shines from the next wall makes |r| largest, and which no Gauss node is near to.
+ElementNodes nodes_and_edges(std::span<const scene::SurfacePatch> patches) {
+  constexpr int points = 4;
+  constexpr double inwards = 1e-3;  ///< of the way to the middle: on an edge where walls meet T b has two values
+  const ElementNodes inside = element_nodes(patches, points);
+  ElementNodes out;
+  out.first.push_back(0);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    out.nodes.insert(out.nodes.end(), inside.nodes.begin() + static_cast<std::ptrdiff_t>(inside.first[i]),
+                     inside.nodes.begin() + static_cast<std::ptrdiff_t>(inside.first[i + 1]));
+    const std::span<const Vec3> ring = patches[i].ring();
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      for (const double along : {0.0, 0.2, 0.5, 0.8}) {
+        const Vec3 x = ring[k] + along * (ring[(k + 1) % ring.size()] - ring[k]);
+        out.nodes.push_back({x + inwards * (patches[i].centroid() - x), 0});
+      }
+    out.first.push_back(out.nodes.size());
+  }
+  return out;
+}
+
 }  // namespace
 
 ResidualNorms residual_norms(const scene::Scene& scene, const RadiositySolution& s, Run& run) {
-  constexpr int points = 4;
   const auto patches = s.mesh.patches();
   const int channels = scene.channel_count();
   const PointViewFactors factors(scene, patches, s.field ? s.field->order : 0);
-  const ElementNodes nodes = element_nodes(patches, points);
+  const ElementNodes nodes = nodes_and_edges(patches);
   const std::vector<Spectrum> H = to_spectra(iterated_transport(
       factors, patches, nodes, s.field ? s.field->radiosity : to_columns(s.radiosity, channels), run));
   ResidualNorms out;

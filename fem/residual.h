@@ -11,8 +11,9 @@ namespace interflect::fem {
 ///
 /// since neither norm of T exceeds 1: int k(x, y) dy <= 1 at every x, and k is symmetric, so that int k(x, y) dx <= 1
 /// at every y too.  T B_h is found past whatever hides, in closed form of what is near, at 16 Gauss points of a quad
-/// and of a triangle: what is rough between them is not seen, so that the norms are estimates.  Bounds that hold for
-/// certain are an Enclosure's.
+/// and of a triangle, and the largest |r| in corners and at three places of each edge as well, where it is up to four
+/// times what it is at those: what is rough between them is not seen, so that the norms are estimates.  Bounds that
+/// hold for certain are an Enclosure's.
 struct ResidualNorms {
   std::vector<Spectrum> of_elements;  ///< root mean square of r over each
   Spectrum rms, largest;              ///< over all by area, ||r||_2 / sqrt(A); at any of the points

@@ -17,6 +17,8 @@ namespace interflect::fem {
 namespace {
 
 constexpr double marked_share = 0.7, missed = 2, cancelling_share = 0.1;
+/// Of what a pass changed the value of the goal by: an error that falls to a half or less from pass to pass is no more.
+constexpr double changed_share = 1;
 /// Decay (dual_weighted.h) from which on a degree more is worth its unknowns: the product of both kinds of coefficients
 /// falls to a half from degree to degree.
 constexpr double smooth = 0.7;
@@ -113,7 +115,8 @@ std::optional<AdaptiveStop> reason_to_stop(const scene::Scene& scene, std::span<
   const double value = scene.weigh(passes.back().value), allowed = adaptive.target * value;
   if (!(value > 0)) return AdaptiveStop::no_light;
   if (!(adaptive.target > 0)) return AdaptiveStop::only_asked;
-  if (scene.weigh(passes.back().error) <= allowed) return AdaptiveStop::met;
+  // The first pass has nothing to be held against: where no node sees a shadow nothing tells of it.
+  if (passes.size() > 1 && scene.weigh(passes.back().error) <= allowed) return AdaptiveStop::met;
   if (std::ssize(passes) < adaptive.most_passes) return std::nullopt;
   return by_form_factors(scene, passes.back(), adaptive) ? AdaptiveStop::form_factors : AdaptiveStop::passes;
 }
@@ -187,7 +190,9 @@ class Passes {
 
   DualWeighted pass(const Elements& elements, Adaptation& adaptation) const {
     DualWeighted found = estimate(scene_, elements, settings_, adaptive_.goal, rays_, run_);
-    const Spectrum bound = bound_of(found);
+    Spectrum bound = bound_of(found);
+    if (!adaptation.passes.empty())
+      bound = max(bound, changed_share * abs(found.value - adaptation.passes.back().value));
     const double value = scene_.weigh(found.value);
     adaptation.passes.push_back({elements.mesh.size(), unknowns(elements.degree), found.value, found.correction, bound,
                                  found.quadrature, value > 0 ? scene_.weigh(bound) / value : 0.0,
