@@ -22,7 +22,7 @@ TEST(Enclosure, holds_the_truth_and_not_much_more) {
     const NearlyTrue truth(scene, .6, run.get());
     const RadiositySolution s = test::solved(scene, .45, 0, run.get());
     const Enclosure enclosure(scene, s, enough_memory, run.get());
-    const test::Held held = test::held_against(enclosure, s, truth, doubt_of_truth, 5);
+    const test::Held held = test::held_against(enclosure, s, truth, doubt_of_truth, 5, 6, unsigned(seed));
     EXPECT_EQ(held.outside, 0) << seed << " of " << held.points;
     EXPECT_LT(held.width, 5 * held.largest_error) << seed;
     for (std::size_t i = 0; i < s.irradiance.size(); ++i) {  // Galerkin's means are nearer to the truth than constants
@@ -197,7 +197,7 @@ TEST(Enclosure, holds_in_an_open_scene) {
   const RadiositySolution s = test::solved(scene, .3, 0, run.get());
   EXPECT_FALSE(s.closed);
   const Enclosure enclosure(scene, s, enough_memory, run.get());
-  const test::Held held = test::held_against(enclosure, s, truth, doubt_of_truth, 2);
+  const test::Held held = test::held_against(enclosure, s, truth, doubt_of_truth, 2, 6);
   EXPECT_EQ(held.outside, 0) << held.points;
 }
 

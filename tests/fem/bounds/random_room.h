@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "fem/bounds/enclosure.h"
 #include "fem/point_view_factors.h"
@@ -67,18 +68,35 @@ class NearlyTrue {
   PointViewFactors factors_;
 };
 
-/// What an enclosure of a solution is like at points near the corners of elements, where errors are largest, and in the
-/// middle.
+/// Places near the corners of an element, where errors are largest, in the middle, and anywhere.
+inline std::vector<Vec3> places_in(const scene::SurfacePatch& patch, int anywhere, std::mt19937& random) {
+  std::vector<Vec3> places{patch.centroid()};
+  for (std::size_t k = 0; k < patch.corners; ++k) places.push_back(places[0] + .98 * (patch.corner[k] - places[0]));
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int k = 0; k < anywhere; ++k) {
+    double u = part(random), v = part(random);
+    if (patch.corners == 3 && u + v > 1) u = 1 - u, v = 1 - v;
+    places.push_back(point_on(patch.ring(), u, v));
+  }
+  return places;
+}
+
+/// What an enclosure of constants is like at such places.
 struct Held {
-  int points = 0, outside = 0;
-  double width = 0;          ///< mean of B's over the elements that were looked at, by area
-  double largest_error = 0;  ///< mean of the largest |B - B_h| there
-  double all_width = 0;      ///< mean of all elements'
+  int points = 0, outside = 0;  ///< of H, B or B - B_h
+  double width = 0;             ///< mean of B's over the elements that were looked at, by area
+  double largest_error = 0;     ///< mean of the largest |B - B_h| there
+  double all_width = 0;         ///< mean of all elements'
 };
+/// @param anywhere  random places an element
 inline Held held_against(const Enclosure& enclosure, const RadiositySolution& s, const NearlyTrue& truth,
-                         double doubt_of_truth, std::size_t every) {
+                         double doubt_of_truth, std::size_t every, int anywhere = 0, unsigned seed = 1) {
   Held held;
+  std::mt19937 random(seed);
   double area = 0, all_area = 0;
+  const auto within = [&](double x, const Interval& bounds) {
+    return x > bounds.lower[0] - doubt_of_truth && x < bounds.upper[0] + doubt_of_truth;
+  };
   for (std::size_t i = 0; i < s.mesh.patches().size(); ++i) {
     const scene::SurfacePatch& patch = s.mesh.patches()[i];
     const Interval& B = enclosure.radiosity()[i];
@@ -86,17 +104,12 @@ inline Held held_against(const Enclosure& enclosure, const RadiositySolution& s,
     all_area += patch.area;
     if (i % every != 0) continue;
     double largest = 0;
-    for (std::size_t k = 0; k <= patch.corners; ++k) {
-      Vec3 x = patch.centroid();
-      if (k < patch.corners) x += .98 * (patch.corner[k] - x);
+    for (const Vec3& x : places_in(patch, anywhere, random)) {
       const double H = truth.irradiance({x, patch.normal(), patch.surface});
-      const double b = s.exitance[i][0] + s.reflectance[i][0] * H;
-      const Interval& everywhere = enclosure.irradiance()[i];
+      const double b = s.exitance[i][0] + s.reflectance[i][0] * H, e = b - s.radiosity[i][0];
       ++held.points;
-      if (H < everywhere.lower[0] - doubt_of_truth || H > everywhere.upper[0] + doubt_of_truth ||
-          b < B.lower[0] - doubt_of_truth || b > B.upper[0] + doubt_of_truth)
-        ++held.outside;
-      largest = std::max(largest, std::abs(b - s.radiosity[i][0]));
+      if (!within(H, enclosure.irradiance()[i]) || !within(b, B) || !within(e, enclosure.error()[i])) ++held.outside;
+      largest = std::max(largest, std::abs(e));
     }
     held.width += patch.area * (B.upper[0] - B.lower[0]);
     held.largest_error += patch.area * largest;

@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "fem/goal/iterated_transport.h"
-#include "solvers/solver.h"
 #include "tests/fem/bounds/random_room.h"
 #include "tests/fem/monte_carlo.h"
+#include "tests/fem/space/returned.h"
 
 // Any radiosity b solves the equation if surfaces emit E* = b - rho T b.  So, of b that elements can represent, every
 // mesh returns b itself, up to what K's entries and the load are off: the strictest test of an assembled K.  T b is by
@@ -21,67 +19,9 @@ namespace {
 using solvers::ColumnMatrix;
 using test::Manufactured;
 using test::Random;
+using test::Returned;
 using test::SeenRadiosity;
 
-ColumnMatrix solved(const SymmetricOperator& K, const ColumnMatrix& rho, const ColumnMatrix& e, Run& run) {
-  solvers::SolverState state{e, 0};
-  const solvers::Reflection R(rho);
-  EXPECT_TRUE(solvers::make_solver("gauss-seidel")->advance({K, R, e}, state, {1e-14, 1000}, run).converged());
-  return state.x;
-}
-
-/// (I - R G^-1 K)^-1 R
-Eigen::MatrixXd reflected_resolvent(const SymmetricOperator& K, const ColumnMatrix& rho) {
-  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(K.size(), K.size());
-  for (Index a = 0; a < K.size(); ++a)
-    for (Index b = 0; b < K.size(); ++b) system(a, b) -= rho(a, 0) / K.gram()[std::size_t(a)] * K.entry(a, b);
-  return system.inverse() * rho.col(0).asDiagonal();
-}
-
-struct Returned {
-  double error = 0;                     ///< largest |b - b*| of the unknowns, over the largest |b*|
-  double of_entries = 0, of_loads = 0;  ///< what each may add to it
-};
-
-/// b - b* = (I - R G^-1 K)^-1 R [G^-1 (K - K*) b* + (load - load*)] in any solution, so that
-///
-///   |b - b*| <= || (I - R G^-1 K)^-1 R || (max_i 1/A_i sum_j |K - K*|_ij max_b + load's error),    max norms
-///
-/// max_b being an element's largest sum of |coefficients|.  An entry may be off by the tolerance times the pair's
-/// unoccluded K_00, and so may what is hidden of it, whose irradiance is off by a tenth of that with polynomials
-/// (analytic_moments.h); or, of what is hidden, by the tolerance times A_i / (16 elements) (hidden_pairs.h):
-///
-///   1/A_i sum_j |K - K*|_ij <= tolerance (2.1 sum_j F_ij,unoccluded + 1/16)
-Returned returned(const Manufactured& m, int order, double tolerance, double first_entry = 1) {
-  RadiositySettings settings;
-  settings.form_factors = "analytic";
-  settings.order = order;
-  settings.quadrature_tolerance = tolerance;
-  core::LocalRun run(1, 1);
-  RadiosityOperator all = m.assembled(settings, run.get());
-  SymmetricOperator& K = order > 0 ? *all.blocks : *all.K;
-  if (first_entry != 1) {
-    bool found = false;
-    K.change([&](const StoredPair& p) { return !std::exchange(found, true) ? first_entry * p.K : p.K; }, run.get());
-  }
-  const ColumnMatrix rho = m.reflectance(order), wanted = m.of_order(order, m.wanted);
-  const ColumnMatrix b = solved(K, rho, m.exitance(order), run.get());
-  const double resolvent = reflected_resolvent(K, rho).cwiseAbs().rowwise().sum().maxCoeff();
-  const std::vector<double> F = test::unoccluded_row_sums(m.patches, 1e-6);
-  const double row = tolerance * (2.1 * *std::max_element(F.begin(), F.end()) + 1.0 / 16), size = test::largest(wanted);
-  double most = 0;
-  const Index f = plane_functions(order);
-  for (Index i = 0; i < std::ssize(m.patches); ++i)
-    most = std::max(most, wanted.middleRows(i * f, f).cwiseAbs().colwise().sum().maxCoeff());
-  return {test::largest(b - wanted) / size, resolvent * row * most / size, resolvent * m.load_error / size};
-}
-
-/// And by far: most entries are nearer than their tolerance, and their errors cancel.  A tenth of it in the worst of 56
-/// random rooms.
-void expect_near(const Returned& r, double tolerance, int order) {
-  EXPECT_LT(r.error, r.of_entries + r.of_loads) << "order " << order << ", tolerance " << tolerance;
-  EXPECT_LT(r.error, tolerance / 5 + r.of_loads) << "order " << order << ", tolerance " << tolerance;
-}
 /// At tolerances that fall, with errors that do until only the loads' are left.
 /// @param finest  of elements of the highest order
 void expect_returned(const Manufactured& m, double finest) {
@@ -90,8 +30,8 @@ void expect_returned(const Manufactured& m, double finest) {
     double before = std::numeric_limits<double>::infinity();
     for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
       if (order == test::highest && tolerance < finest) continue;
-      const Returned r = returned(m, order, tolerance);
-      expect_near(r, tolerance, order);
+      const Returned r = test::returned(m, order, tolerance);
+      test::expect_near(r, tolerance, order);
       EXPECT_LT(r.error, std::max(before / 2, r.of_loads)) << "order " << order << ", tolerance " << tolerance;
       before = r.error;
     }
@@ -130,6 +70,37 @@ TEST(SeenRadiosity, is_that_of_point_view_factors) {
   }
 }
 
+TEST(SeenRadiosity, of_cubic_functions_is_that_of_point_view_factors) {
+  Random random(4);
+  const scene::Scene scene = test::random_room(random);
+  const SeenRadiosity seen(scene);
+  const auto patches = test::whole_surfaces(scene);
+  std::vector<std::vector<test::SurfaceRadiosity>> b(1, std::vector<test::SurfaceRadiosity>(patches.size()));
+  for (test::SurfaceRadiosity& of_surface : b[0])
+    for (double& c : of_surface.c) c = test::between(-1, 1, random);
+  constexpr int order = 3;
+  const Index f = plane_functions(order);
+  ColumnMatrix coefficients = ColumnMatrix::Zero(std::ssize(patches) * f, 1);
+  const ElementNodes nodes = element_nodes(patches, 4);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const PlaneBasis basis(order, patches[i].ring(), patches[i].normal());
+    for (std::size_t q = nodes.first[i]; q < nodes.first[i + 1]; ++q)
+      coefficients.middleRows(Index(i) * f, f) += nodes.nodes[q].weight / patches[i].area *
+                                                  seen.value(b[0][i], patches[i].surface, nodes.nodes[q].position) *
+                                                  basis.at(nodes.nodes[q].position);
+  }
+  core::LocalRun run(1, 1);
+  const ColumnMatrix Tb =
+      iterated_transport(PointViewFactors(scene, patches, order), patches, nodes, coefficients, run.get());
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    for (std::size_t q = nodes.first[i]; q < nodes.first[i + 1]; ++q) {
+      std::array<double, 1> at{};
+      for (const auto part : {SeenRadiosity::Part::room, SeenRadiosity::Part::bodies_and_hidden})
+        seen.add(part, nodes.nodes[q].position, patches[i].normal(), b, at);
+      EXPECT_NEAR(at[0], Tb(Index(q), 0), 1e-8);
+    }
+}
+
 TEST(ManufacturedSolution, is_returned_past_a_body_by_unequal_elements) { expect_returned(random_room(1, 20), 1e-5); }
 
 // Two tetrahedra hide parts of each other and, their shadows overlapping, of the walls.
@@ -143,14 +114,14 @@ TEST(ManufacturedSolution, is_returned_past_two_bodies_by_elements_with_hanging_
 TEST(ManufacturedSolution, is_returned_at_any_scale) {
   for (const double scale : {1e-6, 1e6}) {
     const Manufactured m = random_room(5, 8, scale);
-    for (const int order : {0, 1}) expect_near(returned(m, order, 1e-4), 1e-4, order);
+    for (const int order : {0, 1}) test::expect_near(test::returned(m, order, 1e-4), 1e-4, order);
   }
 }
 
 TEST(ManufacturedSolution, is_missed_where_one_entry_is_off) {
   const Manufactured m = random_room(1, 8);
   for (const int order : {0, 1}) {
-    const Returned r = returned(m, order, 1e-4, 1.02);
+    const Returned r = test::returned(m, order, 1e-4, 1.02);
     EXPECT_GT(r.error, 1e-4 / 5 + r.of_loads);
   }
 }
@@ -215,12 +186,12 @@ TEST(ManufacturedSolution, is_returned_by_sampled_visibility_within_its_noise) {
     of_arriving.add(Kb.col(0).cwiseQuotient(areas) - Tb.col(0), variances.col(0).cwiseQuotient(areas.cwiseAbs2()),
                     m.load_error);
 
-    const Eigen::MatrixXd RS = reflected_resolvent(K, rho), S = RS * areas.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd RS = test::reflected_resolvent(K, rho), S = RS * areas.cwiseInverse().asDiagonal();
     Eigen::VectorXd variance = Eigen::VectorXd::Zero(n);
     for (Index i = 0; i < n; ++i)
       for (Index j = i + 1; j < n; ++j)
         variance += (K.entry_standard_error(i, j) * (S.col(i) * b(j, 0) + S.col(j) * b(i, 0))).cwiseAbs2();
-    of_solution.add(solved(K, rho, m.exitance(0), run.get()) - b, variance,
+    of_solution.add(test::solved(K, rho, m.exitance(0), run.get()) - b, variance,
                     RS.cwiseAbs().rowwise().sum().maxCoeff() * m.load_error);
   }
   of_arriving.expect_as_stated(alpha);

@@ -23,10 +23,11 @@ inline double between(double low, double high, Random& random) {
 }
 
 /// A closed room on a trapezoid with two tetrahedra turned at random, apart from each other and from the walls.
-inline scene::Scene room_of_tetrahedra(Random& random) {
+inline scene::Scene room_of_tetrahedra(Random& random, double scale = 1) {
   const double w = between(2, 2.5, random), d = between(1.2, 1.6, random), h = between(1.2, 1.6, random);
-  const geometry::Ring floor{{0, 0, 0}, {w, 0, 0}, {w - between(0, .3, random), d, 0}, {between(0, .3, random), d, 0}};
-  const Vec3 up(0, 0, h);
+  geometry::Ring floor{{0, 0, 0}, {w, 0, 0}, {w - between(0, .3, random), d, 0}, {between(0, .3, random), d, 0}};
+  for (Vec3& x : floor) x *= scale;
+  const Vec3 up(0, 0, scale * h);
   scene::SceneBuilder builder({"y"}, scene::Quantity::radiometric);
   const auto material = [&] { return builder.add_material(diffuse(between(.2, .8, random))); };
   builder.add_polygon("floor", {floor, {}}, material());
@@ -42,7 +43,7 @@ inline scene::Scene room_of_tetrahedra(Random& random) {
     for (double& along : axis) along = between(-1, 1, random);
     const Eigen::AngleAxisd turn(between(.3, 2.8, random), axis.normalized());
     std::array<Vec3, 4> corner{Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)};
-    for (Vec3& x : corner) x = middle + turn * (between(.12, .22, random) * x);
+    for (Vec3& x : corner) x = scale * (middle + turn * (between(.12, .22, random) * x));
     for (const auto [i, j, k] : {std::array{0u, 1u, 2u}, {0u, 2u, 3u}, {0u, 3u, 1u}, {1u, 3u, 2u}})
       builder.add_polygon("body", {{corner[i], corner[j], corner[k]}, {}}, material());
   }
@@ -107,11 +108,11 @@ class Load {
 
   /// The room's part on few cells that shrink towards the elements' sides, where it is d ln d in the distance d; the
   /// rest on many equal ones, for its kinks.
-  ColumnMatrix on_cells(int of_room, int of_rest) const {
+  ColumnMatrix on_cells(int of_room, int of_rest, int points = 6) const {
     ColumnMatrix means = ColumnMatrix::Zero(std::ssize(patches_) * most_functions, std::ssize(b_));
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       auto rows = means.middleRows(static_cast<Index>(i) * most_functions, most_functions);
-      add(SeenRadiosity::Part::room, patches_[i], of_room, gauss_legendre(6), rows);
+      add(SeenRadiosity::Part::room, patches_[i], of_room, gauss_legendre(points), rows);
       add(SeenRadiosity::Part::bodies_and_hidden, patches_[i], of_rest, gauss_legendre(3), rows);
     }
     return means;
@@ -151,13 +152,14 @@ class Load {
 
 /// A scene with elements and radiosities on it, as coefficients of the elements' functions, and what arrives of them.
 struct Manufactured {
-  /// @param cells  across an element, for what is behind bodies
-  Manufactured(scene::Scene of, std::vector<scene::SurfacePatch> elements, int cells, Random& random)
+  /// @param cells  across an element, for what is behind bodies; of_room: for what nothing hides
+  Manufactured(scene::Scene of, std::vector<scene::SurfacePatch> elements, int cells, Random& random, int of_room = 4)
       : scene(std::move(of)), patches(std::move(elements)), b(random_solutions(scene, random)) {
     const SeenRadiosity seen(scene);
     const Load load(seen, patches, b);
-    arriving = load.on_cells(4, cells);
-    load_error = largest(arriving - load.on_cells(2, cells / 2)) / 3;
+    arriving = load.on_cells(of_room, cells);
+    const bool few = of_room < 4;
+    load_error = largest(arriving - load.on_cells(few ? of_room : of_room / 2, cells / 2, few ? 5 : 6)) / 3;
     wanted = ColumnMatrix::Zero(arriving.rows(), arriving.cols());
     for (std::size_t i = 0; i < patches.size(); ++i) {
       const scene::SurfacePatch& patch = patches[i];
@@ -200,7 +202,9 @@ struct Manufactured {
   std::vector<scene::SurfacePatch> patches;
   std::vector<std::vector<SurfaceRadiosity>> b;
   ColumnMatrix arriving, wanted;
-  double load_error = 0;  ///< largest; a third of the difference to twice the step: errors fall with its square
+  /// Largest; a third of the difference to twice the step, or in the room to a point less a cell where those are few:
+  /// errors fall with the square of the step, and faster in the room.
+  double load_error = 0;
 };
 
 }  // namespace interflect::fem::test

@@ -106,7 +106,7 @@ TEST(PolynomialRadiosity, says_in_a_sentence_what_it_does_not_go_with) {
   settings = polynomial_settings(2, 1.1);
   settings.form_factors = "hemicube";
   EXPECT_EQ(said(settings),
-            "form factors by 'hemicube': they are of constants: --order 0, or analytic or gauss-lambert, expected");
+            "form factors by 'hemicube': they are of constants: --order 0, or analytic, gauss-lambert or duffy, expected");
 }
 
 }  // namespace

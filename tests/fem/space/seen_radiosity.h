@@ -14,10 +14,10 @@
 /// integration are done once more here, and otherwise.
 namespace interflect::fem::test {
 
-/// sum_ij c_ij xi^i eta^j, i + j <= 2, by i + j and then by j, in coordinates of a surface's plane about the mean of
+/// sum_ij c_ij xi^i eta^j, i + j <= 3, by i + j and then by j, in coordinates of a surface's plane about the mean of
 /// its corners, in units of the largest distance of a corner from there.
 struct SurfaceRadiosity {
-  std::array<double, 6> c{};
+  std::array<double, 10> c{};
 };
 
 /// A convex ring of few corners.
@@ -77,7 +77,7 @@ class SeenRadiosity {
   }
 
   double value(const SurfaceRadiosity& b, scene::SurfaceId on, const Vec3& x) const {
-    return expanded(b.c, faces_[on.value].coordinates(x)).value;
+    return expanded(b.c, faces_[on.value].coordinates(x))[0];
   }
 
   /// @param x, n  a point of a surface and its normal
@@ -98,7 +98,7 @@ class SeenRadiosity {
   }
 
  private:
-  using Moments = std::array<double, 6>;
+  using Moments = std::array<double, 10>;
 
   struct Face {
     explicit Face(std::span<const Vec3> ring)
@@ -114,12 +114,20 @@ class SeenRadiosity {
     double radius = 0;
     bool of_room = false;
   };
-  struct Expansion {
-    double value, by_xi, by_eta;
-  };
-  static Expansion expanded(const std::array<double, 6>& c, const Vec2& y) {
-    return {c[0] + c[1] * y.x() + c[2] * y.y() + c[3] * y.x() * y.x() + c[4] * y.x() * y.y() + c[5] * y.y() * y.y(),
-            c[1] + 2 * c[3] * y.x() + c[4] * y.y(), c[2] + c[4] * y.x() + 2 * c[5] * y.y()};
+  /// The same polynomial in coordinates about y.
+  static std::array<double, 10> expanded(const std::array<double, 10>& c, const Vec2& y) {
+    const double u = y.x(), v = y.y();
+    return {c[0] + u * (c[1] + u * (c[3] + u * c[6])) + v * (c[2] + v * (c[5] + v * c[9])) +
+                u * v * (c[4] + u * c[7] + v * c[8]),
+            c[1] + u * (2 * c[3] + 3 * u * c[6]) + v * (c[4] + 2 * u * c[7] + v * c[8]),
+            c[2] + v * (2 * c[5] + 3 * v * c[9]) + u * (c[4] + u * c[7] + 2 * v * c[8]),
+            c[3] + 3 * u * c[6] + v * c[7],
+            c[4] + 2 * (u * c[7] + v * c[8]),
+            c[5] + u * c[8] + 3 * v * c[9],
+            c[6],
+            c[7],
+            c[8],
+            c[9]};
   }
 
   void take_out_hidden(const ConvexPiece& above, std::span<const Face* const> hiding, const Vec3& x, const Vec3& n,
@@ -181,19 +189,24 @@ class SeenRadiosity {
         for (const RuleNode& node : rule_) {
           const double e = std::exp(first + (panel + node.u) * width), cosh = (e + 1 / e) / 2, sinh = (e - 1 / e) / 2;
           const double s = distance * cosh, s2 = s * s, r2 = s2 + h2, arc = std::atan(s / h);
-          const std::array<double, 4> A{s2 / (2 * h2 * r2), (arc / h - s / r2) / 2, (std::log1p(s2 / h2) - s2 / r2) / 2,
-                                        s - 1.5 * h * arc + s * h2 / (2 * r2)};
+          const double log = std::log1p(s2 / h2);
+          const std::array<double, 5> A{s2 / (2 * h2 * r2), (arc / h - s / r2) / 2, (log - s2 / r2) / 2,
+                                        s - 1.5 * h * arc + s * h2 / (2 * r2), s2 / 2 - h2 * log + s2 * h2 / (2 * r2)};
           const Vec2 omega = (d * Vec2(along.y(), -along.x()) + distance * sinh * along) / s;
           const double beta = n_u * omega.x() + n_v * omega.y();
           const double weight = sign * h * inv_pi * std::copysign(node.weight * width, d) / cosh;
           const auto of = [&](std::size_t degree) { return weight * (alpha * A[degree] + beta * A[degree + 1]); };
-          const double linear = of(1), square = of(2);
+          const double linear = of(1), square = of(2), cube = of(3);
           moments[0] += of(0);
           moments[1] += linear * omega.x();
           moments[2] += linear * omega.y();
           moments[3] += square * omega.x() * omega.x();
           moments[4] += square * omega.x() * omega.y();
           moments[5] += square * omega.y() * omega.y();
+          moments[6] += cube * omega.x() * omega.x() * omega.x();
+          moments[7] += cube * omega.x() * omega.x() * omega.y();
+          moments[8] += cube * omega.x() * omega.y() * omega.y();
+          moments[9] += cube * omega.y() * omega.y() * omega.y();
         }
     }
   }
@@ -203,10 +216,10 @@ class SeenRadiosity {
     const Vec2 y = faces_[j].coordinates(x);
     const double r = faces_[j].radius;
     for (std::size_t m = 0; m < b.size(); ++m) {
-      const std::array<double, 6>& c = b[m][j].c;
-      const Expansion at = expanded(c, y);
-      out[m] += at.value * moments[0] + (at.by_xi * moments[1] + at.by_eta * moments[2]) / r +
-                (c[3] * moments[3] + c[4] * moments[4] + c[5] * moments[5]) / (r * r);
+      const std::array<double, 10> c = expanded(b[m][j].c, y);
+      const double cubes = c[6] * moments[6] + c[7] * moments[7] + c[8] * moments[8] + c[9] * moments[9],
+                   squares = c[3] * moments[3] + c[4] * moments[4] + c[5] * moments[5] + cubes / r;
+      out[m] += c[0] * moments[0] + (c[1] * moments[1] + c[2] * moments[2] + squares / r) / r;
     }
   }
 
