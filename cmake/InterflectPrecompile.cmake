@@ -37,7 +37,7 @@ function(interflect_precompile target)
   endif()
   # gcc 12's false alarms on sums of strings (its bug 105651), which it keeps to itself where a header is the system's;
   # the presets that do without have these warnings.
-  target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
+  target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds -fpch-preprocess)  # the last for ccache
   get_target_property(type ${target} TYPE)
   if(ARG_TESTS)
     interflect_precompiled(interflect_test_headers EXECUTABLE HEADERS <gtest/gtest.h> LIBRARIES GTest::gtest)

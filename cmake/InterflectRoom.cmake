@@ -15,7 +15,8 @@ endif()
 
 find_program(INTERFLECT_CCACHE ccache)
 if(INTERFLECT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${INTERFLECT_CCACHE})
+  # What headers that are parsed once (InterflectPrecompile) need, of its manual's chapter on them.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${INTERFLECT_CCACHE})
 endif()
 
 add_library(interflect_options INTERFACE)
