@@ -17,8 +17,11 @@ namespace interflect::fem {
 namespace {
 
 constexpr double marked_share = 0.7, missed = 2, cancelling_share = 0.1;
-/// Of what a pass changed the value of the goal by: an error that falls to a half or less from pass to pass is no more.
-constexpr double changed_share = 1;
+/// Elements of a start that is nobody's choice.
+constexpr double default_start = 60;
+/// Of what a pass changed the value of the goal by: an error that falls by a factor q from pass to pass is q / (1 - q)
+/// of it; q is a half at most while there are fewer elements than in a default start, and a third later.
+double changed_share(Index elements) { return static_cast<double>(elements) < default_start ? 1 : 0.5; }
 /// Decay (dual_weighted.h) from which on a degree more is worth its unknowns: the product of both kinds of coefficients
 /// falls to a half from degree to degree.
 constexpr double smooth = 0.7;
@@ -192,7 +195,7 @@ class Passes {
     DualWeighted found = estimate(scene_, elements, settings_, adaptive_.goal, rays_, run_);
     Spectrum bound = bound_of(found);
     if (!adaptation.passes.empty())
-      bound = max(bound, changed_share * abs(found.value - adaptation.passes.back().value));
+      bound = max(bound, changed_share(elements.mesh.size()) * abs(found.value - adaptation.passes.back().value));
     const double value = scene_.weigh(found.value);
     adaptation.passes.push_back({elements.mesh.size(), unknowns(elements.degree), found.value, found.correction, bound,
                                  found.quadrature, value > 0 ? scene_.weigh(bound) / value : 0.0,
@@ -223,10 +226,9 @@ class Passes {
 
 mesh::ElementMesh first_elements(const scene::Scene& scene, const RadiositySettings& settings,
                                  const AdaptiveSettings& adaptive) {
-  constexpr double few = 60;
   if (!(adaptive.target > 0)) return elements_of(scene, settings);
   if (settings.element_size > 0) return mesh::uniform(scene, settings.element_size);
-  return mesh::coarse(scene, mesh::edge_for(scene, few));
+  return mesh::coarse(scene, mesh::edge_for(scene, default_start));
 }
 
 AdaptedElements adapt_elements(const scene::Scene& scene, const RadiositySettings& settings,
