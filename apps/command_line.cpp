@@ -42,7 +42,7 @@ void add_solve(CLI::App& app, Command& chosen) {
   command->add_flag("--bounds", options->bounds,
                     "Prove bounds of every number too, element by element and at sensors (docs/bounds.md)");
   command->add_flag("--residual", options->residual,
-                    "Find E + rho T B - B too, at 16 points of each element, and what it bounds");
+                    "Find E + rho T B - B too, at points of each element and along its edges, and what it bounds");
 }
 
 void add_validate(CLI::App& app, Command& chosen) {

@@ -61,8 +61,9 @@ std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scen
   for (std::size_t k = 0; k < adaptation.passes.size(); ++k) {
     const fem::AdaptivePass& pass = adaptation.passes[k];
     table.add({std::to_string(k + 1), core::format("%td", pass.elements), core::format("%td", pass.unknowns),
-               core::format("%.6g", scene.weigh(pass.value)), core::format("%.2g", scene.weigh(pass.error)),
-               core::format("%.2g %%", 100 * pass.relative), core::format_duration(pass.seconds)});
+               core::format("%.6g", scene.weigh(pass.value)),
+               core::format("%.2g", core::rounded_up(scene.weigh(pass.error), 2)),
+               core::format("%.2g %%", core::rounded_up(100 * pass.relative, 2)), core::format_duration(pass.seconds)});
   }
   const fem::AdaptivePass& last = adaptation.passes.back();
   return table.text() + "stopped     " + describe(adaptation.why) + "\n" +

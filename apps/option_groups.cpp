@@ -11,10 +11,19 @@
 namespace interflect::apps {
 namespace {
 
+/// Of the methods that a setting changes something of: "hemicube, single-plane".
+std::string names_of(fem::Setting setting) {
+  std::string names;
+  for (const std::string& name : fem::form_factor_names())
+    if (fem::setting_of(name) == setting) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
 /// Settings that change nothing are mistakes: of the method, or of what one expects of it.
 void require_heeded(const CLI::Option& option, const std::string& method, fem::Setting setting) {
   if (!option.empty() && fem::setting_of(method) != setting)
-    throw CLI::ValidationError(option.get_name(), "form factors by " + method + " have none: --form-factors NAME");
+    throw CLI::ValidationError(option.get_name(),
+                               "form factors by " + method + " do not heed it: --form-factors " + names_of(setting));
 }
 
 /// Where the options of how much a form-factor method does go.

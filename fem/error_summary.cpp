@@ -25,7 +25,7 @@ ErrorSummary summarise_error(const RadiositySolution& solution, const scene::Sce
   if (squares == 0) return {};
   Spectrum mean_noise;
   for (int c = 0; c < scene.channel_count(); ++c)
-    mean_noise[c] = std::hypot(solution.shared_noise[c], std::sqrt(std::max(0.0, own[c])) / area);
+    mean_noise[c] = solution.shared_noise[c] + std::sqrt(2 * std::max(0.0, own[c])) / area;
   return {mean / area, mean_bound / area + normal_95 * scene.weigh(mean_noise), std::sqrt(bounds / squares),
           std::sqrt(noises / squares)};
 }

@@ -21,10 +21,12 @@ constexpr int points_of_polynomials = 4;
 static_assert(ElementBasis::highest_order == 3);
 /// From middle to middle of triangles that are apart, over the sum of their radii.
 constexpr double least_distance = 2;
-/// Of products, which leave rounding alone at this distance.
+/// Of products, which leave some 4e-12 at this distance.
 constexpr int most_points_apart = 10;
 /// Lengths of triangles that touch, over each other, from which on they are cut.
 constexpr double most_unequal = 2;
+/// Pairs of parts that are apart: those of panels that nearly touch all along are left larger, and less accurate.
+constexpr std::size_t most_parts = 10000;
 /// Cuts of triangles one after the other.
 constexpr int most_cuts = 48;
 
@@ -204,14 +206,15 @@ class PolygonPairNodes {
   void cut_apart(const Triangle& x, const Triangle& y, int cuts) {
     const double r_x = x.radius(), r_y = y.radius();
     const double distance = (x.middle() - y.middle()).norm() / (r_x + r_y);
-    if (cuts == 0 || distance >= least_distance) return apart_.push_back({x, y, std::max(distance, least_distance)});
+    if (cuts == 0 || apart_.size() >= most_parts || distance >= least_distance)
+      return apart_.push_back({x, y, std::max(distance, least_distance)});
     if (r_x >= r_y)
       for (const Triangle& part : halves(x)) cut_apart(part, y, cuts - 1);
     else
       for (const Triangle& part : halves(y)) cut_apart(x, part, cuts - 1);
   }
-  /// On an interval whose kernel is singular at x half lengths from its middle, n points leave rho^-2n, ln rho = arcosh x
-  /// [Trefethen 2008]: the nearest have all points, others those that leave as much.
+  /// On an interval whose kernel is singular at x half lengths from its middle, n points leave rho^-2n,
+  /// ln rho = arcosh x [Trefethen 2008]: the nearest have all points, others those that leave as much.
   void add_apart() {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Apart& pair : apart_) nearest = std::min(nearest, pair.distance);

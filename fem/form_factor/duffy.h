@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 
 #include "fem/form_factor/pair_method.h"
 #include "fem/form_factor/pair_moments.h"
@@ -14,8 +15,8 @@ namespace interflect::fem {
 /// shares no formula with the closed forms of the other methods, which is what it is for.  Pairs that something may
 /// hide get rays, as in `gauss-lambert`.
 ///
-/// Errors are estimated from the last two changes from rule to rule.  Pairs that no rule brings to the tolerance, as
-/// where elements meet at a few degrees, say so.
+/// Errors are estimated from the last two changes from rule to rule.  Of pairs that no rule brings to the tolerance, as
+/// where elements meet at a few degrees or nearly touch all along, the first is told in a warning.
 /// Test: tests/fem/space/duffy.cpp
 class Duffy final : public PairMethod {
  public:
@@ -38,6 +39,7 @@ class Duffy final : public PairMethod {
   std::vector<PlaneBasis> bases_;
   std::vector<PolygonPairRule> rules_;
   VisibilitySampler visibility_;
+  mutable std::atomic<bool> told_ = false;  ///< of a pair that missed the tolerance
 };
 
 }  // namespace interflect::fem

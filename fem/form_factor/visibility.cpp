@@ -123,7 +123,9 @@ void VisibilitySampler::append(Index i, Index j, Effort effort, std::uint32_t se
 SampledVisibility VisibilitySampler::operator()(Index i, Index j, Effort effort, Workspace& w) const {
   generate(i, j, effort, w);
   SampledVisibility V = look(w);
-  for (std::uint32_t set = 1, most_sets = most_rays; largest_error_ > 0 && V.standard_error > largest_error_; ++set) {
+  const std::size_t of_a_set = std::size_t{permutations_.back().side()} * permutations_.back().side();
+  const auto most_sets = static_cast<std::uint32_t>(most_rays / of_a_set) + 1;
+  for (std::uint32_t set = 1; largest_error_ > 0 && V.standard_error > largest_error_; ++set) {
     if (w.segments.size() >= most_rays || set > most_sets) break;
     // Errors fall as one over the root of the number.
     const double times = std::pow(V.standard_error / largest_error_, 2), wanted = times * static_cast<double>(V.rays);

@@ -188,6 +188,21 @@ TEST(AdaptiveElements, end_where_no_element_is_to_blame) {
   EXPECT_EQ(made.passes.size(), 1u);
 }
 
+// Between black plates a goal is what the lamp sends there, and elements have nothing to add: one pass meets the target.
+TEST(AdaptiveElements, meet_a_target_that_they_are_exact_for) {
+  Room room;
+  room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 0, 1);
+  const scene::SurfaceId lit = room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, 0);
+  const scene::Scene scene = room.finish();
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  core::LocalRun run(1, 2);
+  const Goal goal{"lit", Goal::OnSurface{lit, scene::Side::front}};
+  const Adaptation made = adapt_elements(scene, settings_of(1, 1e-6), {goal, 1e-2}, *rays, run.get()).adaptation;
+  EXPECT_EQ(made.why, AdaptiveStop::met);
+  EXPECT_EQ(made.passes.size(), 1u);
+  EXPECT_NEAR(made.passes[0].value[0], 0.199824895698387, made.passes[0].error[0]);  // truths.md 2.11, V1
+}
+
 // The pass that is forecast is the first one, however many elements a solve would have by default.
 TEST(AdaptiveElements, are_forecast_by_their_first_pass) {
   const scene::Scene scene = two_rooms();
