@@ -62,7 +62,10 @@ TEST(BadInput, goals_that_are_none) {
 
 TEST(BadInput, settings_that_the_method_has_not) {
   const std::string scene = shipped_scene("cube");
-  expect_refused({"view-factors", scene, "-o", "F.csv", "--samples", "1e4"}, "form factors by analytic have none");
+  expect_refused({"view-factors", scene, "-o", "F.csv", "--samples", "1e4"},
+                 "form factors by analytic do not heed it: --form-factors area-to-area, hemisphere-rays, global-lines");
+  expect_refused({"solve", scene, "-o", "x", "--form-factors", "hybrid", "--visibility-rays", "64"},
+                 "form factors by hybrid do not heed it: --form-factors gauss-lambert, duffy");
   expect_refused({"exchange", scene, "-o", "x", "--resolution", "64"}, "--resolution");
   expect_refused({"solve", scene, "-o", "x", "--order", "1", "--visibility-rays", "64"}, "--visibility-rays");
   expect_refused({"solve", scene, "-o", "x", "--samples", "100"}, "gauss-lambert");
