@@ -10,9 +10,9 @@
 namespace interflect::test {
 namespace {
 
-const std::vector<std::string> methods = {"analytic",        "hybrid",       "gauss-lambert", "area-to-area",
-                                          "hemisphere-rays", "global-lines", "hemicube",      "hemicube-midpoint",
-                                          "hemicube-max",    "single-plane"};
+const std::vector<std::string> methods = {"analytic",          "hybrid",          "gauss-lambert", "duffy",
+                                          "area-to-area",      "hemisphere-rays", "global-lines",  "hemicube",
+                                          "hemicube-midpoint", "hemicube-max",    "single-plane"};
 
 using Rings = std::vector<std::vector<Vec3>>;
 using Table = std::map<std::pair<std::string, std::string>, TableEntry>;
