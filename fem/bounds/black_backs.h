@@ -26,6 +26,8 @@ namespace interflect::fem {
 ///   out for.  The first back in a place is left out for elements alone.
 /// - No ray ends on two.  Of sides in one place that face one way, one at most is a back, and none beside an element.
 ///
+/// All of this is to the tolerance of the cells (SceneCells), which may be moved and dropped by as much.
+///
 /// In the same place are planes that no shaft tells apart, within 1e-11 of the scene's size.  Those that every shaft
 /// tells apart hide each other as any do, and all are parts.  Between these nothing is known, and nothing is returned:
 /// bounds are then those without backs, for which sum_P F_P <= 1 is enough (m = 0).

@@ -30,7 +30,7 @@ class LitRegions {
  public:
   explicit LitRegions(const scene::Scene& scene);
 
-  /// Whether no light that leaves an element can escape.
+  /// Whether it is proved that no light that leaves an element can escape, and known what covers each black back.
   bool closed() const { return closed_; }
   /// Of a closed scene, the sides without elements that there are around the elements' regions, in triangles; they are
   /// black.  Where an active side lies in the same place, that is what is seen (black_backs.h).

@@ -174,8 +174,9 @@ TEST(AdaptiveElements, say_why_they_stopped) {
   EXPECT_THROW(adapt_elements(scene, settings, {nowhere, 1e-2}, *rays, run.get()), core::InputError);
 }
 
-// Black walls: T B_h is E's, whose means Galerkin's solution has exactly; only K's errors are left, and no pass mends them.
-TEST(AdaptiveElements, end_where_no_element_is_to_blame) {
+/// Of the one of two black plates that the other one shines on: T B_h is E's, whose means Galerkin's solution has
+/// exactly, so that elements have nothing to add, and only K's errors are left.
+Adaptation adapted_plates(double tolerance, double target) {
   Room room;
   room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 0, 1);
   const scene::SurfaceId lit = room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, 0);
@@ -183,21 +184,17 @@ TEST(AdaptiveElements, end_where_no_element_is_to_blame) {
   const auto rays = raycast::make_ray_caster("embree", scene);
   core::LocalRun run(1, 2);
   const Goal goal{"lit", Goal::OnSurface{lit, scene::Side::front}};
-  const Adaptation made = adapt_elements(scene, settings_of(1, 1e-2), {goal, 1e-4}, *rays, run.get()).adaptation;
+  return adapt_elements(scene, settings_of(1, tolerance), {goal, target}, *rays, run.get()).adaptation;
+}
+
+TEST(AdaptiveElements, end_where_no_element_is_to_blame) {
+  const Adaptation made = adapted_plates(1e-2, 1e-4);
   EXPECT_EQ(made.why, AdaptiveStop::form_factors);
   EXPECT_EQ(made.passes.size(), 1u);
 }
 
-// Between black plates a goal is what the lamp sends there, and elements have nothing to add: one pass meets the target.
 TEST(AdaptiveElements, meet_a_target_that_they_are_exact_for) {
-  Room room;
-  room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 0, 1);
-  const scene::SurfaceId lit = room.wall({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1, 0);
-  const scene::Scene scene = room.finish();
-  const auto rays = raycast::make_ray_caster("embree", scene);
-  core::LocalRun run(1, 2);
-  const Goal goal{"lit", Goal::OnSurface{lit, scene::Side::front}};
-  const Adaptation made = adapt_elements(scene, settings_of(1, 1e-6), {goal, 1e-2}, *rays, run.get()).adaptation;
+  const Adaptation made = adapted_plates(1e-6, 1e-2);
   EXPECT_EQ(made.why, AdaptiveStop::met);
   EXPECT_EQ(made.passes.size(), 1u);
   EXPECT_NEAR(made.passes[0].value[0], 0.199824895698387, made.passes[0].error[0]);  // truths.md 2.11, V1
