@@ -61,20 +61,12 @@ void require_no_overlap(const FactorRequest& request, const std::string& shown) 
   const auto radiates = [&](std::size_t k) {
     return request.geometry.surfaces[k].role == scene::ExchangeRole::radiates;
   };
-  const auto two_sided = [&](std::size_t k) {
-    return scene.materials[scene.surfaces[k].material.value].active(scene::Side::back);
-  };
   constexpr double tolerance = 1e-9;  // of the scene's size
   for (const auto& found : scene::overlaps(scene, tolerance * scene.box().diagonal().norm())) {
     const std::size_t a = at[found.surface], b = found.other.empty() ? a : at[found.other];
-    const double area = two_sided(a) && two_sided(b) ? found.size : found.same_way;
-    if (!radiates(a) || !radiates(b) || area <= 0) continue;
-    const std::string what = core::format(" lie in one plane and overlap in %.3g m2 at (%.6g, %.6g, %.6g): ", area,
-                                          found.where.x(), found.where.y(), found.where.z());
-    if (a != b)
-      throw core::InputError(
-          shown, "'" + found.surface + "' and '" + found.other + "'" + what + "cut them, or --leave-out one");
-    core::log::warning("faces of '" + found.surface + "'" + what + "that part counts twice");
+    if (!radiates(a) || !radiates(b) || found.twice <= 0) continue;
+    if (a != b) throw core::InputError(shown, scene::overlap_text(found) + ": cut them, or --leave-out one");
+    core::log::warning(scene::overlap_text(found) + ": that part counts twice");
   }
 }
 

@@ -11,7 +11,9 @@ namespace interflect::apps {
 
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run) {
   if (options.forecast_only) return print_forecast(options, common, run);
-  const auto solved = solve_scene(read_and_note(options.scene), options, common, run);
+  scene::Scene scene = read_and_note(options.scene);
+  if (options.bounds) fem::require_no_place_twice(scene);  // before the work
+  const auto solved = solve_scene(std::move(scene), options, common, run);
   if (options.bounds) {
     solved->bounds = proved_bounds(*solved, options.settings.max_memory, run);
     if (!solved->bounds) solved->warnings.emplace_back("stopped before its bounds were found: there are none");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/format.h"
 #include "scene/inspection_parts.h"
 
 namespace interflect::scene {
@@ -28,6 +29,13 @@ std::string describe(Kind kind) {
       return "coplanar faces overlap";
   }
   return "";
+}
+
+std::string overlap_text(const Inspection::Finding& overlap) {
+  const std::string which = overlap.other.empty() ? "faces of '" + overlap.surface + "'"
+                                                  : "'" + overlap.surface + "' and '" + overlap.other + "'";
+  return core::format("%s lie in one plane and overlap in %.3g m2 at (%.6g, %.6g, %.6g)", which.c_str(), overlap.twice,
+                      overlap.where.x(), overlap.where.y(), overlap.where.z());
 }
 
 Inspection inspect(const Scene& scene) {

@@ -16,6 +16,7 @@ struct Inspection {
     Vec3 where;                  ///< a point of it [m]
     double size;                 ///< length of the gap or edge [m], or area of the overlap [m²]
     double same_way = 0;         ///< area of the overlap where both fronts look the same way [m²]
+    double twice = 0;            ///< area of the overlap where active sides of both look the same way [m²]
   };
   std::vector<Finding> findings;  ///< the largest first within a kind
   double open_edge_length = 0;    ///< [m] of edges that no other facet continues: gaps and rims
@@ -34,5 +35,8 @@ Inspection inspect(const Scene& scene);
 std::vector<Inspection::Finding> overlaps(const Scene& scene, double tolerance);
 
 std::string describe(Inspection::Finding::Kind kind);
+
+/// "'a' and 'b' lie in one plane and overlap in 2 m2 at (0, 0, 1)", with the area that is there twice.
+std::string overlap_text(const Inspection::Finding& overlap);
 
 }  // namespace interflect::scene

@@ -13,7 +13,7 @@ using Kind = Inspection::Finding::Kind;
 
 /// What two surfaces have in common.
 struct Shared {
-  double area = 0, largest = 0, same_way = 0;
+  double area = 0, largest = 0, same_way = 0, twice = 0;
   double duplicated = 0;  ///< area of facets that are the same
   Vec3 where = Vec3::Zero();
 };
@@ -23,6 +23,8 @@ Vec3 middle(const Facet& f) { return (f.corner[0] + f.corner[1] + f.corner[2]) /
 double perimeter(const Facet& f) {
   return (f.corner[1] - f.corner[0]).norm() + (f.corner[2] - f.corner[1]).norm() + (f.corner[0] - f.corner[2]).norm();
 }
+
+bool is_two_sided(const Scene& scene, const Facet& f) { return scene.material(f.surface).active(Side::back); }
 
 /// Area of b (the smaller) that lies on a; 0 where it is no more than a strip as wide as the tolerance.
 double area_on(const Facet& a, const Facet& b, double tolerance) {
@@ -54,7 +56,9 @@ void find_coplanar_faces(const Scene& scene, double tolerance, Inspection& inspe
       const auto pair = std::minmax({f.surface.value, g.surface.value});
       Shared& s = shared[{pair.first, pair.second}];
       s.area += area;
-      if (f.normal.dot(g.normal) > 0) s.same_way += area;
+      const bool same_way = f.normal.dot(g.normal) > 0;
+      if (same_way) s.same_way += area;
+      if (same_way || is_two_sided(scene, f) || is_two_sided(scene, g)) s.twice += area;
       if (area >= (1 - 1e-6) * std::max(f.area, g.area)) s.duplicated += area;
       if (area > s.largest) s.largest = area, s.where = middle(f_larger ? g : f);
     };
@@ -66,7 +70,7 @@ void find_coplanar_faces(const Scene& scene, double tolerance, Inspection& inspe
         s.duplicated >= (1 - 1e-6) * s.area || (pair.first != pair.second && s.area >= (1 - 1e-6) * larger);
     inspection.findings.push_back(
         {duplicate ? Kind::duplicate_faces : Kind::coplanar_overlap, scene.surfaces[pair.first].name,
-         pair.first == pair.second ? "" : scene.surfaces[pair.second].name, s.where, s.area, s.same_way});
+         pair.first == pair.second ? "" : scene.surfaces[pair.second].name, s.where, s.area, s.same_way, s.twice});
   }
 }
 

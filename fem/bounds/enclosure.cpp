@@ -13,6 +13,7 @@
 #include "fem/bounds/lit_regions.h"
 #include "fem/columns.h"
 #include "fem/point_view_factors.h"
+#include "scene/inspection.h"
 #include "scene/place.h"
 
 namespace interflect::fem {
@@ -381,8 +382,18 @@ class Enclosure::Iteration {
   std::vector<std::vector<Cover>> covers_;
 };
 
-Enclosure::Enclosure(const scene::Scene& scene, const RadiositySolution& solution, double max_memory, Run& run)
-    : of_(std::make_unique<Iteration>(scene, solution)) {
+void require_no_place_twice(const scene::Scene& scene) {
+  constexpr double in_one_plane = 1e-9;  // of the scene's size
+  for (const auto& found : scene::overlaps(scene, in_one_plane * scene.box().diagonal().norm()))
+    if (found.twice > 0)
+      throw core::InputError("bounds", scene::overlap_text(found) +
+                                           ": what is seen there is not defined, and nothing can be proved; cut them, "
+                                           "or leave one out");
+}
+
+Enclosure::Enclosure(const scene::Scene& scene, const RadiositySolution& solution, double max_memory, Run& run) {
+  require_no_place_twice(scene);
+  of_ = std::make_unique<Iteration>(scene, solution);
   of_->look_around(max_memory, run);
   of_->iterate(run);
   of_->set_results();

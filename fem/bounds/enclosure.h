@@ -10,6 +10,11 @@
 
 namespace interflect::fem {
 
+/// Of surfaces in one place none hides the other.  Where two with elements face the same way there, both would be seen
+/// as a whole, and what is seen is not defined.
+/// @throws core::InputError  which they are, and where
+void require_no_place_twice(const scene::Scene& scene);
+
 /// Two-sided bounds of the exact solution, point by point, that are proved and not estimated: of B = E + rho T B about
 /// what a solution has on its elements, however good or bad that is: its constants, or the linear parts B_h of its
 /// polynomials.
@@ -25,8 +30,8 @@ namespace interflect::fem {
 ///
 /// T B_h over a part of an element is bounded by cell_transport.h, as a polynomial of second degree and its doubt; so r
 /// is on the elements' quarters and theirs (cell_view.h), with its mean m and the mean deviation d from it.  Of what a
-/// place sees whole, int k r = F m + (<= across d): since the means of a residual are small, as Galerkin's are, or cancel
-/// among quarters, little is left.  Of other parts F is known, and r is between its own bounds there.
+/// place sees whole, int k r = F m + (<= across d): since the means of a residual are small, as Galerkin's are, or
+/// cancel among quarters, little is left.  Of other parts F is known, and r is between its own bounds there.
 ///
 /// Widths of e are O(h) about constants where the solution is smooth, since B varies by as much over an element, and
 /// O(h²) about linear functions; those of H anywhere in an element are O(h) in any case.
@@ -38,7 +43,8 @@ namespace interflect::fem {
 class Enclosure {
  public:
   /// The scene and the solution outlive this.
-  /// @throws core::InputError  where a surface reflects everything; where it takes more than `max_memory` [bytes]
+  /// @throws core::InputError  a place that is there twice; where a surface reflects everything; where it takes more
+  ///                           than `max_memory` [bytes]
   /// @throws core::Interrupted
   Enclosure(const scene::Scene& scene, const RadiositySolution& solution, double max_memory, Run& run);
   ~Enclosure();

@@ -175,6 +175,29 @@ void expect_refused(const std::string& name, const std::string& text, const std:
   EXPECT_EQ(folder.files(), 1u);
 }
 
+// What is not defined is not proved, and the run does not begin.
+TEST(BadGeometry, bounds_of_a_place_that_is_there_twice_are_refused_by_name) {
+  const std::string corners = "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]";
+  const auto scene_of = [&](const std::string& second) {
+    return R"({"format": "interflect/scene/1", "units": "m", "quantity": "radiometric",
+      "materials": {"lit": {"type": "diffuse", "reflectance": 0.5, "exitance": 1}},
+      "geometry": [{"name": "one", "material": "lit", "polygon": )" +
+           corners + R"(}, {"name": "two", "material": "lit", "polygon": )" + second + "}]}";
+  };
+  const TemporaryFolder folder;
+  const auto solve = [&](const std::string& second) {
+    return interflect({"solve", folder.write("room.json", scene_of(second)), "--bounds", "--element-size", "0.5",
+                       "--no-pictures", "-o", folder / "out"});
+  };
+  const Outcome refused = solve("[[0.5, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 1, 0]]");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("'one' and 'two' lie in one plane and overlap in 0.5 m2"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+  EXPECT_EQ(folder.files(), 1u);
+  EXPECT_EQ(solve("[[1, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0]]").status, 0);
+}
+
 TEST(BadGeometry, overlaps_in_one_plane_are_refused_by_name) {
   const std::vector<Vec3> shifted{{.5, .25, 0}, {1.5, .25, 0}, {1.5, .75, 0}, {.5, .75, 0}};
   expect_refused("mesh.obj", obj_of({square, shifted, lid}),

@@ -160,6 +160,25 @@ TEST(Inspect, a_lamp_that_lies_on_the_ceiling_overlaps_it_and_one_cut_out_does_n
   }
 }
 
+// Fronts the same way; a front and the back of a two-sided one; two backs; and back to back, where each is one.
+TEST(Inspect, overlaps_tell_what_active_sides_have_in_common) {
+  Ring other = square(0, 0, 0, 1);
+  std::reverse(other.begin(), other.end());
+  const auto twice = [&](bool same_way, bool first_two_sided, bool second_two_sided) {
+    Site site;
+    site.builder.add_polygon("a", {square(0, 0, 0, 1), {}}, first_two_sided ? site.sheet : site.wall);
+    site.builder.add_polygon("b", {same_way ? square(0, 0, 0, 1) : other, {}},
+                             second_two_sided ? site.sheet : site.wall);
+    const auto found = overlaps(site.builder.finish(), 1e-9);
+    return found.size() == 1 ? found[0].twice : -1;
+  };
+  for (const bool first : {false, true})
+    for (const bool second : {false, true}) {
+      EXPECT_NEAR(twice(true, first, second), 1, 1e-12);
+      EXPECT_NEAR(twice(false, first, second), first || second ? 1 : 0, 1e-12);
+    }
+}
+
 TEST(Inspect, a_wall_that_is_there_twice_is_a_duplicate_whichever_way_it_faces) {
   Site site;
   Ring twin{{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 1, 0}};
