@@ -187,9 +187,13 @@ void add_dropped(RadiositySolution& s, const SymmetricOperator& K, int channels,
 void add_quadrature(RadiositySolution& s, const ErrorSources& from) {
   const Spectrum bounces = area_mean(s.mesh, s.reflectance).map([](double rho) { return 1.0 / (1.0 - rho); });
   const Spectrum B = area_mean(s.mesh, s.radiosity);
-  for (std::size_t i = 0; i < s.irradiance.size(); ++i)
-    s.irradiance_error[i] += from.row_bound.empty() ? from.quadrature_tolerance * (bounces * s.irradiance[i])
-                                                    : from.row_bound[i] * (bounces * max(s.irradiance[i], B));
+  const bool counted = !from.row_bound.empty();
+  const double tolerance = counted ? 0 : from.quadrature_tolerance;
+  const std::span<const double> of_rows = counted ? from.row_bound : from.beyond_tolerance;
+  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+    const double of_row = of_rows.empty() ? 0 : of_rows[i];
+    s.irradiance_error[i] += bounces * (tolerance * s.irradiance[i] + of_row * max(s.irradiance[i], B));
+  }
 }
 
 void add_solver(RadiositySolution& s) {

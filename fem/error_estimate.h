@@ -14,6 +14,7 @@ struct ErrorSources {
   const SymmetricOperator* blocks = nullptr;  ///< of polynomials, with errors of theirs
   std::span<const double> row_sum_before;     ///< sum_j F_ij before any closure was restored
   double quadrature_tolerance = 0;            ///< relative, of entries
+  std::span<const double> beyond_tolerance;   ///< sum_j of what bounds of entries are beyond it, over A_i; empty: none
   std::span<const double> row_bound;          ///< sum_j bound_ij / A_i, in place of that tolerance; empty: not known
   const EnvironmentColumn* environment = nullptr;  ///< of an open scene, where it was found
   bool both_converged = true;  ///< the solves at either size: else nothing bounds the discretisation error
@@ -36,8 +37,8 @@ struct ErrorSources {
 ///
 /// plus  neighbours: what radiosity varies by inside elements next to i, which halving does not show
 ///       (neighbour_error.h);
-/// plus  quadrature: tolerance times H, over 1 - mean rho for all bounces; where the errors of rows are known, those
-///       times the larger of H and the mean radiosity;
+/// plus  quadrature: tolerance times H, and what rows are beyond it times the larger of H and the mean radiosity, over
+///       1 - mean rho for all bounces; where the errors of rows are known, those in place of both;
 /// plus  closure, where scenes are closed or their environment was found: |1 - row sum_i - F_i,env - dropped_i| beyond
 ///       twice its standard error, times the mean radiosity, and the same of the mean row times rho / (1 - rho), for
 ///       later bounces: rows that all lack d make H lack d B / (1 - rho);

@@ -1,14 +1,14 @@
 #include "fem/error_summary.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/estimate.h"
+#include "fem/sum_noise.h"
 
 namespace interflect::fem {
 
 ErrorSummary summarise_error(const RadiositySolution& solution, const scene::Scene& scene) {
-  Spectrum own(0.0);  // variance of sum A H
+  SumNoise of_sum(solution);
   double area = 0, mean = 0, mean_bound = 0, squares = 0, bounds = 0, noises = 0;
   for (std::size_t i = 0; i < solution.irradiance.size(); ++i) {
     const double a = solution.mesh.patches()[i].area;
@@ -16,17 +16,14 @@ ErrorSummary summarise_error(const RadiositySolution& solution, const scene::Sce
                  noise = scene.weigh(solution.irradiance_noise[i]);
     area += a;
     mean_bound += a * bound;
-    own += a * a * solution.own_variance(i);
+    of_sum.add(i, Spectrum(a));
     mean += a * h;
     squares += a * h * h;
     bounds += a * bound * bound;
     noises += a * noise * noise;
   }
   if (squares == 0) return {};
-  Spectrum mean_noise;
-  for (int c = 0; c < scene.channel_count(); ++c)
-    mean_noise[c] = solution.shared_noise[c] + std::sqrt(2 * std::max(0.0, own[c])) / area;
-  return {mean / area, mean_bound / area + normal_95 * scene.weigh(mean_noise), std::sqrt(bounds / squares),
+  return {mean / area, (mean_bound + normal_95 * scene.weigh(of_sum.together())) / area, std::sqrt(bounds / squares),
           std::sqrt(noises / squares)};
 }
 

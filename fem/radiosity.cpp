@@ -179,8 +179,9 @@ void require_compatible(const RadiositySettings& settings) {
     throw core::InputError(core::format("polynomials of order %d", settings.order),
                            "elements are made for a goal with order 1 or 2");
   if (settings.adaptive && settings.form_factors != "analytic")
-    throw core::InputError("form factors by " + settings.form_factors,
-                           "elements are made for a goal by analytic ones, which have no noise");
+    throw core::InputError(
+        "form factors by " + settings.form_factors,
+        "elements are made for a goal by analytic ones, which have no noise: --form-factors analytic");
   require_compatible_projection(settings);
   if (settings.order == 0) return;
   const auto refuse = [&](const std::string& what) {
@@ -288,11 +289,12 @@ Found solve_with(const Equations& equations, RadiositySolution& s, Run& run) {
 void estimate_with(const Equations& equations, const Found& found, RadiositySolution& s, Run& run) {
   const RadiositySettings& settings = equations.of.settings;
   const bool counted = settings.row_tolerance > 0 || settings.stored_factors;
-  estimate_errors(s,
-                  {*equations.from.K, equations.from.blocks.get(), equations.rows.sum_before,
-                   settings.quadrature_tolerance, counted ? equations.from.row_bound : std::span<const double>(),
-                   equations.rows.beyond(), found.converged, settings.order > 0 ? &found.change : nullptr},
-                  equations.of.scene.channel_count(), run);
+  estimate_errors(
+      s,
+      {*equations.from.K, equations.from.blocks.get(), equations.rows.sum_before, settings.quadrature_tolerance,
+       equations.from.beyond_tolerance, counted ? equations.from.row_bound : std::span<const double>(),
+       equations.rows.beyond(), found.converged, settings.order > 0 ? &found.change : nullptr},
+      equations.of.scene.channel_count(), run);
 }
 
 /// What a light group does alone.  @param dark  a solution without light

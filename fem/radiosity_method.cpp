@@ -8,6 +8,7 @@
 #include "fem/error_estimate.h"
 #include "fem/gather.h"
 #include "fem/point_view_factors.h"
+#include "fem/sum_noise.h"
 #include "geometry/overlap.h"
 
 namespace interflect::fem {
@@ -119,25 +120,22 @@ void Answers::add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& til
 /// The flux that arrives on elements and parts of elements: sum of area times irradiance, elements in their order.
 ///
 /// Of an element that is cut, constants know no more than the mean: its variation is added to the bound, by the cut
-/// part's share.  Noise: what elements have of their own is added in squares (twice, where elements of the region may
-/// see each other, so that they share random numbers: (a + b)² <= 2 a² + 2 b²), what all have in common as it is.
+/// part's share.
+/// @param plane  whether none of them sees another
 Estimate Answers::arriving_on(std::vector<Tile> tiles, bool plane) const {
   std::sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) { return a.element < b.element; });
   Estimate flux{Spectrum(), Spectrum(), Spectrum(), Claim::estimated, 0};
-  Spectrum own_variance;
-  double covered = 0.0;
+  SumNoise noise(s_);
   for (std::size_t k = 0; k < tiles.size();) {
     const std::size_t i = tiles[k].element;
     double area = 0.0;
     for (; k < tiles.size() && tiles[k].element == i; ++k) area += tiles[k].area;
-    covered += area;
     flux.value += area * s_.irradiance[i];
     flux.error_bound += area * s_.irradiance_error[i];
     if (area < (1 - 1e-9) * s_.mesh.patches()[i].area) flux.error_bound += area * irradiance_variation(s_, i);
-    own_variance += area * area * s_.own_variance(i);
+    noise.add(i, Spectrum(area));
   }
-  const Spectrum shared = covered * s_.shared_noise;
-  flux.standard_error = sqrt((plane ? 1.0 : 2.0) * own_variance + shared * shared);
+  flux.standard_error = plane ? noise.apart() : noise.together();
   return flux;
 }
 
@@ -195,7 +193,8 @@ Answer Answers::by_polynomials(const measure::PointIrradiance& asked) const {
   const PolynomialField& field = *s_.field;
   std::vector<double> F(static_cast<std::size_t>(field.radiosity.rows())), rounding(s_.mesh.size());
   (*exact_)(asked, F, rounding);
-  Spectrum value, below, sizes, from_elements, own_variance, shared;
+  Spectrum value, below, sizes, from_elements;
+  SumNoise noise(s_);
   const auto functions = static_cast<std::size_t>(field.functions);
   for (std::size_t j = 0; j < rounding.size(); ++j) {
     const std::span<const double> of_j = std::span<const double>(F).subspan(j * functions, functions);
@@ -208,32 +207,31 @@ Answer Answers::by_polynomials(const measure::PointIrradiance& asked) const {
     const Spectrum rho = s_.reflectance[j];
     from_elements += of_j[0] * (rho * s_.irradiance_error[j]) +
                      rounding[j] * PolynomialField::sizes(field.radiosity, first, field.functions);
-    own_variance += of_j[0] * of_j[0] * (rho * rho * s_.own_variance(j));
-    shared += of_j[0] * (rho * s_.shared_noise);
+    noise.add(j, of_j[0] * rho);
   }
   const Spectrum difference = abs(value - below);
   Spectrum error = from_elements;
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(difference[c], 0.05 * sizes[c]);
-  return {{value, Spectrum(), error, Claim::estimated, 0}, sqrt(own_variance + shared * shared)};
+  return {{value, Spectrum(), error, Claim::estimated, 0}, noise.apart()};
 }
 
 Answer Answers::by_constants(const measure::PointIrradiance& asked) const {
   const Gathered gathered = gather_(asked, key_of(asked), importance_);
-  Spectrum sizes, from_elements, own_variance, shared;
+  Spectrum sizes, from_elements;
+  SumNoise noise(s_);
   for (const GatheredElement& g : gathered.elements) {
     const auto j = static_cast<std::size_t>(g.element);
     sizes += g.factor * abs(halving_[j]);
     const Spectrum rho = s_.reflectance[j];
-    own_variance += g.factor * g.factor * (rho * rho * s_.own_variance(j));
-    shared += g.factor * (rho * s_.shared_noise);
-    from_elements += g.factor * (s_.reflectance[j] * s_.irradiance_error[j]);
+    noise.add(j, g.factor * rho);
+    from_elements += g.factor * (rho * s_.irradiance_error[j]);
   }
   const Spectrum halving = abs(irradiance(gathered, halving_));
   Spectrum error = from_elements;  // the elements' own bounds, reflected: what the gather inherits
   for (int c = 0; c < Spectrum::capacity; ++c) error[c] += std::max(halving[c], 0.05 * sizes[c]);
   return {{irradiance(gathered, s_.radiosity), irradiance_noise(gathered, s_.radiosity), error, Claim::estimated,
            gathered.rays},
-          sqrt(own_variance + shared * shared)};
+          noise.apart()};
 }
 
 Answer Answers::at(const measure::PointIrradiance& asked) const {

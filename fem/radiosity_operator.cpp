@@ -1,6 +1,7 @@
 #include "fem/radiosity_operator.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/estimate.h"
 #include "fem/assembly.h"
@@ -50,7 +51,8 @@ struct PolynomialOperator {
       gram.insert(gram.end(), static_cast<std::size_t>(functions), patch.area);
     blocks = std::make_unique<DenseSymmetric>(std::move(gram), functions);
   }
-  BlockSink sink() { return {*K, *blocks, functions}; }
+  /// @param constants  what K gets passes through it
+  BlockSink sink(ExchangeSink& constants) { return {constants, *blocks, functions}; }
 
   Index functions;
   std::unique_ptr<DenseSymmetric> K, blocks;
@@ -161,6 +163,21 @@ void copy_kept(const SymmetricOperator& before, std::span<const Index> same_as, 
   });
 }
 
+/// Of entries.  Pictures are asked for none: their bounds are the worst that a cell may do, some hundred times what cells
+/// do together, and row sums tell that.
+double tolerance_to_miss(const RadiositySettings& settings) {
+  return setting_of(settings.form_factors) == Setting::resolution ? std::numeric_limits<double>::infinity()
+                                                                  : settings.quadrature_tolerance;
+}
+
+/// What pairs that are new add to what rows had before, which is cautious: some of those pairs are gone.
+std::vector<double> beyond_tolerance(std::span<const double> before, std::span<const Index> same_as,
+                                     std::vector<double> of_new) {
+  for (std::size_t i = 0; i < of_new.size(); ++i)
+    if (same_as[i] >= 0) of_new[i] += before[static_cast<std::size_t>(same_as[i])];
+  return of_new;
+}
+
 }  // namespace
 
 FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches,
@@ -180,24 +197,32 @@ RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const s
   const Source source(scene, patches, rays, settings, degrees, run);
   RadiosityOperator out;
   Filled filled;
+  const std::vector<double> areas = areas_of(patches);
   if (settings.order > 0) {
     PolynomialOperator polynomials(patches, settings.order);
-    BlockSink sink = polynomials.sink();
+    BeyondTolerance constants(*polynomials.K, areas, tolerance_to_miss(settings));
+    BlockSink sink = polynomials.sink(constants);
     filled = source.fill(sink);
+    out.beyond_tolerance = constants.all();
     out.K = std::move(polynomials.K);
     out.blocks = std::move(polynomials.blocks);
   } else if (settings.drop_below > 0) {
-    SparseAssembly assembly(areas_of(patches), settings.drop_below);
-    filled = source.fill(assembly);
+    SparseAssembly assembly(areas, settings.drop_below);
+    BeyondTolerance sink(assembly, areas, tolerance_to_miss(settings));
+    filled = source.fill(sink);
+    out.beyond_tolerance = sink.all();
     out.K = assembly.packed(run);
   } else {
-    auto K = std::make_unique<DenseSymmetric>(areas_of(patches));
-    filled = source.fill(*K);
+    auto K = std::make_unique<DenseSymmetric>(areas);
+    BeyondTolerance sink(*K, areas, tolerance_to_miss(settings));
+    filled = source.fill(sink);
+    out.beyond_tolerance = sink.all();
     out.K = std::move(K);
   }
   out.pairs = filled.pairs;
   out.tolerance_met = filled.met;
   if (filled.row_errors.empty()) return out;
+  out.beyond_tolerance.clear();
   out.largest_row_error = *std::max_element(filled.row_errors.begin(), filled.row_errors.end());
   out.row_bound = without_noise(std::move(filled.row_errors), *out.K, run);
   return out;
@@ -207,8 +232,10 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
                                    std::span<const int> degrees, const scene::Scene& scene,
                                    std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays,
                                    const RadiositySettings& settings, Run& run) {
+  const std::vector<double> areas = areas_of(patches);
   PolynomialOperator polynomials(patches, settings.order);
-  BlockSink sink = polynomials.sink();
+  BeyondTolerance constants(*polynomials.K, areas, tolerance_to_miss(settings));
+  BlockSink sink = polynomials.sink(constants);
   const KeptFirst elements = kept_first(same_as);
   std::vector<scene::SurfacePatch> reordered;
   std::vector<int> reordered_degrees;
@@ -225,6 +252,7 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
   RadiosityOperator out;
   out.pairs = before.pairs;
   out.pairs += assemble_new(*method, reordered, elements.kept, to, run);
+  out.beyond_tolerance = beyond_tolerance(before.beyond_tolerance, same_as, constants.all());
   out.K = std::move(polynomials.K);
   out.blocks = std::move(polynomials.blocks);
   return out;

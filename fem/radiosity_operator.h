@@ -15,6 +15,9 @@ struct RadiosityOperator {
   PairCounts pairs;
   /// sum_b bound_ab / A_a of what was not sampled; empty unless `row_tolerance`, `closure` or stored factors need it.
   std::vector<double> row_bound;
+  /// sum_b max(0, bound_ab - tolerance K_ab) / A_a: what entries may err by beyond `quadrature_tolerance`
+  /// (BeyondTolerance); empty where `row_bound` is there, which has all.
+  std::vector<double> beyond_tolerance;
   double largest_row_error =
       0;                      ///< max_a sum_b (bound_ab + 1.96 standard_error_ab) / A_a; 0 where `row_bound` is empty
   bool tolerance_met = true;  ///< `row_tolerance`, where there is one

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "core/estimate.h"
@@ -11,8 +10,6 @@
 namespace interflect::fem {
 
 namespace {
-
-constexpr double unit = 0x1p-52;
 
 std::vector<double> areas_of(std::span<const scene::SurfacePatch> patches) {
   std::vector<double> areas;
@@ -74,39 +71,30 @@ class SinkAssembly final : public RowAssembly {
 }  // namespace
 
 RowErrors::RowErrors(ExchangeSink& sink, std::span<const double> areas)
-    : sink_(sink), areas_(areas), sum_(areas.size()), counts_(areas.size(), 1) {}
+    : sink_(sink), tally_(areas), counts_(areas.size(), 1) {}
 
 void RowErrors::add(Index a, Index b, const ExchangeEntry& entry) {
   sink_.add(a, b, entry);
   const double error = entry.bound + normal_95 * entry.standard_error;
-  count(a, error);
-  if (a != b) count(b, error);
-}
-
-void RowErrors::count(Index a, double error) {
-  const auto at = static_cast<std::size_t>(a);
-  if (!counts_[at] || error == 0) return;
-  const double units = std::ceil(error / areas_[at] / unit);
-  constexpr double most = 0x1p60;  // 256: no sum of form factors is wrong by as much
-  sum_[at].fetch_add(static_cast<std::uint64_t>(units < most ? units : most), std::memory_order_relaxed);
-}
-
-double RowErrors::of(Index a) const {
-  return unit * static_cast<double>(sum_[static_cast<std::size_t>(a)].load(std::memory_order_relaxed));
-}
-
-std::vector<double> RowErrors::all() const {
-  std::vector<double> errors;
-  for (Index a = 0; a < static_cast<Index>(sum_.size()); ++a) errors.push_back(of(a));
-  return errors;
+  const auto counts = [&](Index row) { return counts_[static_cast<std::size_t>(row)] != 0; };
+  if (counts(a)) tally_.add(a, error);
+  if (a != b && counts(b)) tally_.add(b, error);
 }
 
 void RowErrors::count_afresh(std::span<const Index> rows) {
   std::fill(counts_.begin(), counts_.end(), std::uint8_t{0});
   for (const Index a : rows) {
     counts_[static_cast<std::size_t>(a)] = 1;
-    sum_[static_cast<std::size_t>(a)].store(0, std::memory_order_relaxed);
+    tally_.clear(a);
   }
+}
+
+void BeyondTolerance::add(Index a, Index b, const ExchangeEntry& entry) {
+  sink_.add(a, b, entry);
+  const double beyond = entry.bound - tolerance_ * entry.K;
+  if (!(beyond > 0)) return;
+  tally_.add(a, beyond);
+  if (a != b) tally_.add(b, beyond);
 }
 
 double entry_tolerance(double of_rows, int pass) { return std::ldexp(std::min(0.1, 4 * of_rows), -2 * pass); }

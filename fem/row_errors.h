@@ -1,38 +1,54 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "fem/form_factor/method.h"
+#include "fem/row_tally.h"
 
 namespace interflect::fem {
 
-/// Sums of the errors of form factors, row by row, of what passes through to another sink:
+/// Sums of the errors of form factors, row by row (row_tally.h), of what passes through to another sink:
 ///
-///   e_a = sum_b (bound_ab + 1.96 standard_error_ab) / A_a     a bound on sum_b |dF_ab|: guaranteed nowhere, 95 % an entry where sampled
-///
-/// Sums are integers, in units of 2^-52, every entry rounded up: the same for any number of threads.
+///   e_a = sum_b (bound_ab + 1.96 standard_error_ab) / A_a     a bound on sum_b |dF_ab|: guaranteed nowhere, 95 % an
+///                                                             entry where sampled
 class RowErrors final : public ExchangeSink {
  public:
   RowErrors(ExchangeSink& sink, std::span<const double> areas);
 
   void add(Index a, Index b, const ExchangeEntry& entry) override;
 
-  double of(Index a) const;
-  std::vector<double> all() const;
+  double of(Index a) const { return tally_.of(a); }
+  std::vector<double> all() const { return tally_.all(); }
   /// From now on only these rows count, from 0: what others are known for stays.
   void count_afresh(std::span<const Index> rows);
 
  private:
-  void count(Index a, double error);
-
   ExchangeSink& sink_;
-  std::span<const double> areas_;
-  std::vector<std::atomic<std::uint64_t>> sum_;
+  RowTally tally_;
   std::vector<std::uint8_t> counts_;  ///< rows that count
+};
+
+/// What the bounds of a method's entries are beyond the tolerance that it was asked for, row by row:
+///
+///   e_a = sum_b max(0, bound_ab - tolerance K_ab) / A_a
+///
+/// 0 of a method that meets it, and what it costs to know that is a comparison an entry.
+class BeyondTolerance final : public ExchangeSink {
+ public:
+  BeyondTolerance(ExchangeSink& sink, std::span<const double> areas, double tolerance)
+      : sink_(sink), tolerance_(tolerance), tally_(areas) {}
+
+  void add(Index a, Index b, const ExchangeEntry& entry) override;
+
+  std::vector<double> all() const { return tally_.all(); }
+
+ private:
+  ExchangeSink& sink_;
+  double tolerance_;
+  RowTally tally_;
 };
 
 /// The relative tolerance of entries with which rows mostly meet theirs: errors come out far smaller than what entries

@@ -8,11 +8,12 @@ class AnalyticMoments::Work final : public PairWork {
  public:
   explicit Work(const AnalyticMoments& method)
       : moments_(method.moments_),
+        stride_(plane_functions(method.context().order)),
         hidden_(method.shapes(), method.blockers(), method.context().tolerance),
         accuracy_(0.1 * method.context().tolerance) {}
 
   void clear(Index i, Index j, const PairIntegral& K, ExchangeSink& sink) override {
-    moments_.write(i, j, moments_.of(i, j)(i, j, K), 0, sink);
+    write_block(i, j, stride_, moments_.of(i, j)(i, j, K), 0, sink);
   }
   void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) override {
     const MomentIntegrator& moments = moments_.of(pair.i, pair.j);
@@ -34,11 +35,12 @@ class AnalyticMoments::Work final : public PairWork {
     PairMoments block = moments(pair.i, pair.j, pair.unoccluded);
     block.value -= hidden.value;
     block.error += hidden.error + accuracy_ * pair.unoccluded.value;
-    moments_.write(pair.i, pair.j, block, 0, sink);
+    write_block(pair.i, pair.j, stride_, block, 0, sink);
   }
 
  private:
   const MomentsByDegree& moments_;
+  Index stride_;
   HiddenPairs<MomentIntegrand> hidden_;
   double accuracy_;  ///< of far parts' irradiance, relative
 };

@@ -1,12 +1,11 @@
 #include "fem/form_factor/duffy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/log.h"
-#include "fem/form_factor/sampled_pair.h"
-#include "fem/form_factor/seen_block.h"
 #include "fem/galerkin.h"
 
 namespace interflect::fem {
@@ -49,38 +48,13 @@ constexpr std::size_t most_nodes = 2'000'000;
 
 }  // namespace
 
-class Duffy::Work final : public PairWork {
- public:
-  explicit Work(const Duffy& method) : method_(method) {}
-
-  void clear(Index i, Index j, const PairIntegral& K, ExchangeSink& sink) override {
-    method_.write(i, j, method_.block(i, j, K), 0, sink);
-  }
-  void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) override {
-    const SampledVisibility V = sampled(pair, method_.shapes(), method_.visibility_, workspace_, counts);
-    const PairMoments all = method_.block(pair.i, pair.j, pair.unoccluded);
-    const double K_00 = all.value(0, 0);
-    const PairMoments seen =
-        seen_block(all, K_00, V, workspace_, method_.basis(pair.i), method_.basis(pair.j), method_.shapes().origin());
-    method_.write(pair.i, pair.j, seen, K_00 * V.standard_error, sink);
-  }
-
- private:
-  const Duffy& method_;
-  VisibilitySampler::Workspace workspace_;
-};
-
-Duffy::Duffy(const FormFactorContext& context)
-    : PairMethod(context),
-      space_(space_of(shapes(), context.order)),
-      visibility_(context.patches, context.rays, context.visibility_rays, context.seed, context.visibility_error) {
+Duffy::Duffy(const FormFactorContext& context) : SampledBlocks(context), space_(space_of(shapes(), context.order)) {
   for (const Panel& panel : space_.panels()) bases_.emplace_back(context.order, panel.ring(), panel.normal);
   for (const int points : rule_points) rules_.emplace_back(points);
 }
 
-std::unique_ptr<PairWork> Duffy::work() const { return std::make_unique<Work>(*this); }
-
-PairMoments Duffy::block(Index i, Index j, const PairIntegral& K) const {
+/// Of all functions, by the first rule that is near enough to those before it.
+PairMoments Duffy::by_rules(Index i, Index j, double tolerance) const {
   PairMoments block{galerkin_block(space_, i, j, SpaceKernel(), rules_.front()), 0};
   double change = std::numeric_limits<double>::infinity();
   std::size_t nodes = 0;
@@ -91,24 +65,26 @@ PairMoments Duffy::block(Index i, Index j, const PairIntegral& K) const {
     block.value = std::move(finer);
     if (k == 1) continue;
     block.error = left_after(before, change);
-    if (block.error <= context().tolerance * K.value) break;
+    if (block.error <= tolerance) break;
   }
-  if (block.error > context().tolerance * K.value && !told_.exchange(true))
-    core::log::warning(
-        "form factors by duffy: elements that nearly touch, or meet at a few degrees, miss the tolerance; analytic "
-        "ones do not");
-  block.value(0, 0) = std::clamp(block.value(0, 0), 0.0, std::min(shapes()[i].area, shapes()[j].area));
   return block;
 }
 
-void Duffy::write(Index i, Index j, const PairMoments& block, double standard_error, ExchangeSink& sink) const {
-  const Index stride = block.value.rows();
-  Index functions = stride;  // those that the degrees of the pair want
-  if (const std::span<const int> degrees = context().degrees; !degrees.empty())
-    functions = plane_functions(std::max(degrees[static_cast<std::size_t>(i)], degrees[static_cast<std::size_t>(j)]));
-  for (Index a = 0; a < functions; ++a)
-    for (Index b = 0; b < functions; ++b)
-      sink.add(i * stride + a, j * stride + b, {block.value(a, b), standard_error, block.error});
+PairMoments Duffy::block(Index i, Index j, const PairIntegral& K) const {
+  const Index functions = plane_functions(pair_degree(context(), i, j));
+  // No rule would come near enough to nothing.
+  if (K.value == 0) return {Moments::Zero(functions, functions), K.error * basis(i).largest() * basis(j).largest()};
+  const double tolerance = context().tolerance * K.value;
+  PairMoments block = by_rules(i, j, tolerance);
+  if (block.error > tolerance && !told_.exchange(true))
+    core::log::warning(
+        "form factors by duffy: elements that nearly touch, or meet at a few degrees, miss the tolerance; analytic "
+        "ones do not");
+  const double K_00 = std::clamp(block.value(0, 0), 0.0, std::min(shapes()[i].area, shapes()[j].area));
+  block.error = std::max(block.error, std::abs(K_00 - block.value(0, 0)));
+  block.value(0, 0) = K_00;
+  block.value.conservativeResize(functions, functions);
+  return block;
 }
 
 }  // namespace interflect::fem

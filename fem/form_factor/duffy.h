@@ -3,9 +3,7 @@
 #include <array>
 #include <atomic>
 
-#include "fem/form_factor/pair_method.h"
-#include "fem/form_factor/pair_moments.h"
-#include "fem/form_factor/visibility.h"
+#include "fem/form_factor/sampled_blocks.h"
 #include "fem/polygon_pair_rule.h"
 
 namespace interflect::fem {
@@ -18,27 +16,21 @@ namespace interflect::fem {
 /// Errors are estimated from the last two changes from rule to rule.  Of pairs that no rule brings to the tolerance, as
 /// where elements meet at a few degrees or nearly touch all along, the first is told in a warning.
 /// Test: tests/fem/space/duffy.cpp
-class Duffy final : public PairMethod {
+class Duffy final : public SampledBlocks {
  public:
   explicit Duffy(const FormFactorContext& context);
   std::string name() const override { return "duffy"; }
-  int highest_order() const override { return ElementBasis::highest_order; }
-
-  /// As if nothing lay between.
-  PairMoments block(Index i, Index j, const PairIntegral& K) const;
+  PairMoments block(Index i, Index j, const PairIntegral& K) const override;
 
  private:
   static constexpr std::array rule_points = {3, 5, 7, 9, 11, 13, 15, 17, 19};
 
-  class Work;
-  std::unique_ptr<PairWork> work() const override;
-  const PlaneBasis& basis(Index i) const { return bases_[static_cast<std::size_t>(i)]; }
-  void write(Index i, Index j, const PairMoments& block, double standard_error, ExchangeSink& sink) const;
+  const PlaneBasis& basis(Index i) const override { return bases_[static_cast<std::size_t>(i)]; }
+  PairMoments by_rules(Index i, Index j, double tolerance) const;
 
   Space space_;  ///< relative to `ElementShapes::origin`
   std::vector<PlaneBasis> bases_;
   std::vector<PolygonPairRule> rules_;
-  VisibilitySampler visibility_;
   mutable std::atomic<bool> told_ = false;  ///< of a pair that missed the tolerance
 };
 

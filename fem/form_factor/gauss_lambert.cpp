@@ -11,7 +11,7 @@ class GaussLambert::Rays final : public PairOcclusion {
   ExchangeEntry operator()(const DoubtfulPair& pair, PairCounts& counts) override {
     const double value = pair.unoccluded.value;
     const SampledVisibility v = sampled(pair, method_.shapes(), method_.visibility_, workspace_, counts);
-    return {value * v.visible, value * v.standard_error, pair.unoccluded.error};
+    return {value * v.visible, value * v.standard_error, v.visible * pair.unoccluded.error};
   }
 
  private:

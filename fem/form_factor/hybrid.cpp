@@ -31,7 +31,8 @@ class Hybrid::Points final : public PairOcclusion {
     if (v.rays == 0 || normal_95 * v.standard_error > method_.context().tolerance) return exact_(pair, counts);
     ++counts.sampled;
     counts.rays += static_cast<std::uint64_t>(v.rays);
-    return {pair.unoccluded.value * v.visible, pair.unoccluded.value * v.standard_error, pair.unoccluded.error};
+    return {pair.unoccluded.value * v.visible, pair.unoccluded.value * v.standard_error,
+            v.visible * pair.unoccluded.error};
   }
 
  private:

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
-#include "fem/form_factor/method.h"
 #include "fem/form_factor/pair_moments.h"
 
 namespace interflect::fem {
@@ -18,12 +16,11 @@ class MomentsByDegree {
 
   /// Of the degree that the pair needs.
   const MomentIntegrator& of(Index i, Index j) const;
-  /// @param standard_error  of every entry: functions are orthonormal in the mean
-  void write(Index i, Index j, const PairMoments& block, double standard_error, ExchangeSink& sink) const;
+  /// Of the context's order.
+  const PlaneBasis& basis(Index i) const { return moments_.back().basis(i); }
 
  private:
-  Index functions_;
-  std::span<const int> degrees_;
+  FormFactorContext context_;
   std::vector<MomentIntegrator> moments_;  ///< of order 1, 2, .. where any pair needs it; the last is of all the order
 };
 

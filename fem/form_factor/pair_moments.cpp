@@ -97,6 +97,17 @@ PairMoments near(const ElementShape& outer, const PlaneBasis& of_outer, const El
 
 }  // namespace
 
+int pair_degree(const FormFactorContext& context, Index i, Index j) {
+  if (context.degrees.empty()) return context.order;
+  return std::max(context.degrees[static_cast<std::size_t>(i)], context.degrees[static_cast<std::size_t>(j)]);
+}
+
+void write_block(Index i, Index j, Index stride, const PairMoments& block, double standard_error, ExchangeSink& sink) {
+  for (Index a = 0; a < block.value.rows(); ++a)
+    for (Index b = 0; b < block.value.cols(); ++b)
+      sink.add(i * stride + a, j * stride + b, {block.value(a, b), standard_error, block.error});
+}
+
 MomentIntegrator::MomentIntegrator(const ElementShapes& shapes, int order, double tolerance)
     : shapes_(shapes), order_(order), tolerance_(tolerance) {
   for (int points = 1; points <= most_points; ++points)

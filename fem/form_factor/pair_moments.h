@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/form_factor/element_shapes.h"
+#include "fem/form_factor/method.h"
 #include "fem/form_factor/moment_integrand.h"
 #include "fem/form_factor/pair_integral.h"
 
@@ -16,6 +17,14 @@ struct PairMoments {
   double error = 0;
 };
 
+/// Of the functions that a pair has: the higher degree of its elements.
+int pair_degree(const FormFactorContext& context, Index i, Index j);
+
+/// Adds a block's entries at the unknowns of elements i and j.
+/// @param stride          unknowns an element, of which a block may have fewer: the first ones
+/// @param standard_error  of every entry [m²]
+void write_block(Index i, Index j, Index stride, const PairMoments& block, double standard_error, ExchangeSink& sink);
+
 /// Blocks of K of polynomials on pairs of elements, as if nothing lay between:
 ///
 /// 1. pairs that are apart by a product rule on both elements, with as many nodes more than constants need
@@ -23,8 +32,8 @@ struct PairMoments {
 ///    as the polynomials take of its degrees, up to 7 a side.  The error is taken from the difference to the rule with
 ///    one node a side less, of which what Bernstein's ellipse knows is left, by how far they are apart and how long.
 /// 2. others by the closed form for one point (polynomial_emitter.h) inside and adaptive cells of Gauss rules outside
-///    (adaptive_cells.h), on the smaller element.  Touching elements, too: the inner integral is exact, and what is left
-///    is bounded and rough at the common edge alone, where cells shrink.
+///    (adaptive_cells.h), on the smaller element.  Touching elements, too: the inner integral is exact, and what is
+///    left is bounded and rough at the common edge alone, where cells shrink.
 ///
 /// Elements that reach through each other's planes are clipped first.
 class MomentIntegrator {

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 #include "fem/radiosity_method.h"
+#include "fem/sum_noise.h"
 #include "measure/surface_measurements.h"
 #include "mesh/uniform.h"
 #include "tests/fem/rooms.h"
@@ -145,6 +148,66 @@ TEST(ErrorEstimate, noise_of_means_over_surfaces_is_what_seeds_scatter_by) {
   RecordProperty("scatter_to_noise", std::to_string(ratio));
   EXPECT_GT(ratio, 0.4);
   EXPECT_LT(ratio, 1.0);
+}
+
+// The mean of all elements, of which any two may see each other, so that two have each random number.
+TEST(ErrorEstimate, noise_of_the_mean_of_all_is_at_least_what_seeds_scatter_by) {
+  constexpr int seeds = 24;
+  for (const double reflectance : {.3, .85}) {
+    scene::Scene scene = shadowed();
+    for (scene::Material& material : scene.materials) material.reflectance = Spectrum(reflectance);
+    std::vector<double> sums;
+    double predicted = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      const auto s = solve(scene, {.element_size = .25, .seed = seed, .intersector = "embree"});
+      SumNoise noise(s);
+      double sum = 0;
+      for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+        const double A = s.mesh.patches()[i].area;
+        sum += A * s.irradiance[i][0];
+        noise.add(i, Spectrum(A));
+      }
+      sums.push_back(sum);
+      predicted += std::pow(noise.together()[0], 2) / seeds;
+    }
+    const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / seeds;
+    double squares = 0;
+    for (const double sum : sums) squares += std::pow(sum - mean, 2) / (seeds - 1);
+    const double ratio = std::sqrt(squares / predicted);
+    RecordProperty("scatter_to_noise", std::to_string(ratio));
+    EXPECT_GT(ratio, 0.2) << reflectance;
+    EXPECT_LT(ratio, 1.0) << reflectance;
+  }
+}
+
+/// Two unit squares hinged at an angle, of which one shines.
+scene::Scene wedge(double angle) {
+  Room room;
+  room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .5, 1);
+  room.wall({0, 0, 0}, {0, 1, 0}, {std::cos(angle), 0, std::sin(angle)}, 1, .5);
+  return room.finish();
+}
+
+// What form factors miss beyond the tolerance that they were asked for is in the bound: by quadrature on both elements
+// nearly closed wedges miss much, by closed forms they do not.
+TEST(ErrorEstimate, has_what_form_factors_are_beyond_their_tolerance) {
+  const scene::Scene scene = wedge(2 * std::numbers::pi / 180);
+  const auto by = [&](const std::string& method) {
+    RadiositySettings settings;
+    settings.element_size = 1;
+    settings.form_factors = method;
+    core::LocalRun run(1, 2);
+    return solve_radiosity(scene, settings, run);
+  };
+  const RadiositySolution rules = by("duffy"), closed_form = by("analytic");
+  double largest = 0;
+  for (std::size_t i = 0; i < rules.irradiance.size(); ++i) {
+    const double off = std::abs(rules.irradiance[i][0] - closed_form.irradiance[i][0]);
+    EXPECT_LE(off, rules.irradiance_error[i][0]);
+    EXPECT_LT(rules.irradiance_error[i][0] - closed_form.irradiance_error[i][0], 10 * off + 1e-2);
+    largest = std::max(largest, off / closed_form.irradiance[i][0]);
+  }
+  EXPECT_GT(largest, 3 * RadiositySettings().quadrature_tolerance);  // else this says nothing
 }
 
 // Linear irradiance over a parent: the variation inside a child follows exactly.  Square of side 1, gradient 1 along x:
