@@ -34,27 +34,38 @@ Trial with_samples(const std::string& method, std::uint64_t samples) {
           [=](FormFactorContext& c) { c.samples = samples; }};
 }
 
-/// A ladder for every method that is known; one that has none here runs as it is.
+/// How many a method gets: of a pair, of a row, or in all.
+std::vector<std::uint64_t> sample_ladder(const std::string& name) {
+  if (name == "area-to-area") return {128, 1024};
+  if (name == "global-lines") return {10'000, 100'000, 1'000'000};
+  return {256, 4096, 65536};
+}
+
+/// A ladder of what a method's accuracy depends on, from coarse to fine.
+std::vector<Trial> ladder(const std::string& name) {
+  std::vector<Trial> out;
+  switch (setting_of(name)) {
+    case Setting::tolerance:
+      for (const double t : name == "hybrid" ? std::vector{0.5, 0.1} : std::vector{0.1, 1e-2, 1e-3})
+        out.push_back(with_tolerance(name, t));
+      break;
+    case Setting::rays:
+      for (const int rays : {4, 16, 64, 256}) out.push_back(with_rays(name, rays));
+      break;
+    case Setting::samples:
+      for (const std::uint64_t samples : sample_ladder(name)) out.push_back(with_samples(name, samples));
+      break;
+    case Setting::resolution:
+      for (const int resolution : {32, 128, 512}) out.push_back(with_resolution(name, resolution));
+      break;
+  }
+  return out;
+}
+
 std::vector<Trial> trials() {
   std::vector<Trial> out;
-  for (const std::string& name : form_factor_names()) {
-    if (name == "analytic")
-      for (const double t : {0.1, 1e-2, 1e-3}) out.push_back(with_tolerance(name, t));
-    else if (name == "hybrid")
-      for (const double t : {0.5, 0.1}) out.push_back(with_tolerance(name, t));
-    else if (name == "gauss-lambert")
-      for (const int rays : {4, 16, 64, 256}) out.push_back(with_rays(name, rays));
-    else if (name.rfind("hemicube", 0) == 0 || name == "single-plane")
-      for (const int resolution : {32, 128, 512}) out.push_back(with_resolution(name, resolution));
-    else if (name == "area-to-area")
-      for (const std::uint64_t samples : {128, 1024}) out.push_back(with_samples(name, samples));
-    else if (name == "hemisphere-rays")
-      for (const std::uint64_t samples : {256, 4096, 65536}) out.push_back(with_samples(name, samples));
-    else if (name == "global-lines")
-      for (const std::uint64_t samples : {10'000, 100'000, 1'000'000}) out.push_back(with_samples(name, samples));
-    else
-      out.push_back({name, "", [](FormFactorContext&) {}});
-  }
+  for (const std::string& name : form_factor_names())
+    for (Trial& trial : ladder(name)) out.push_back(std::move(trial));
   return out;
 }
 

@@ -16,10 +16,11 @@ using results::Colour;
 
 constexpr int width = 970, height = 620, left = 90, right = 300, top = 50, bottom = 60;  // pixels
 constexpr Colour black{0, 0, 0}, grey{225, 225, 225};
-/// Ten colours that differ in lightness as well as in hue.
-constexpr std::array<Colour, 10> palette{Colour{31, 119, 180}, {214, 39, 40},  {44, 160, 44}, {148, 103, 189},
+/// Twelve colours that differ in lightness as well as in hue: an even number, so that two curves of one
+/// colour have different markers.
+constexpr std::array<Colour, 12> palette{Colour{31, 119, 180}, {214, 39, 40},  {44, 160, 44}, {148, 103, 189},
                                          {255, 127, 14},       {23, 190, 207}, {140, 86, 75}, {227, 119, 194},
-                                         {127, 127, 127},      {188, 189, 34}};
+                                         {127, 127, 127},      {188, 189, 34}, {25, 25, 25},  {130, 170, 255}};
 
 /// Whole decades that hold all points.
 struct Axis {

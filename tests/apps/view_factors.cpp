@@ -204,6 +204,7 @@ TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
   std::set<std::string> names;
   for (const auto& m : methods) {
     names.insert(m.at("method").get<std::string>());
+    EXPECT_NE(m.at("setting"), "") << m.at("method");
     if (m.at("method") == "analytic" && m.at("setting") == "tolerance 0.001") {
       EXPECT_LT(m.at("largest_row_error"), 1e-3);
     }
