@@ -26,6 +26,16 @@ void require_heeded(const CLI::Option& option, const std::string& method, fem::S
                                "form factors by " + method + " do not heed it: --form-factors " + names_of(setting));
 }
 
+/// Where view factors come from a file, settings of how they are found change nothing.
+void require_computed(const CLI::App& command) {
+  const CLI::Option* factors = command.get_option_no_throw("--factors");
+  if (!factors || factors->empty()) return;
+  for (const char* name : {"--form-factors", "--quadrature-tolerance", "--samples", "--resolution", "--visibility-rays",
+                           "--visibility-error"})
+    if (!command.get_option(name)->empty())
+      throw CLI::ValidationError(name, "the view factors of a file do not heed it: without it, or without --factors");
+}
+
 /// Where the options of how much a form-factor method does go.
 struct EffortOptions {
   const std::string& method;
@@ -55,10 +65,10 @@ void add_effort(CLI::App& command, const EffortOptions& options) {
       command
           .add_option("--visibility-error", options.visibility_error,
                       "Of the same: more rays, until the standard error of the part of a pair that is seen is below")
-          ->transform(fraction())
-          ->check(within(1e-3, 0.5))
+          ->transform(fraction(1e-3, 0.5))
           ->default_str("none: as many rays as were asked for");
-  command.parse_complete_callback([samples, cells, rays, error, &method = options.method] {
+  command.parse_complete_callback([samples, cells, rays, error, &command, &method = options.method] {
+    require_computed(command);
     require_heeded(*samples, method, fem::Setting::samples);
     require_heeded(*cells, method, fem::Setting::resolution);
     require_heeded(*rays, method, fem::Setting::rays);
@@ -162,7 +172,7 @@ void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
   command
       .add_option("--unshot", s.stopping.unshot,
                   "Unshot light, over all that is emitted, at which southwell and progressive stop")
-      ->check(within(0.0, 1.0))
+      ->transform(fraction(0.0, 1.0))
       ->capture_default_str();
   command.add_option("--relaxation", s.solver_settings.relaxation, "Of over-relaxation: what of a step is gone")
       ->check(within(1e-3, 1.999))
@@ -171,8 +181,7 @@ void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
   command
       .add_option("--noise", s.stopping.noise,
                   "Relative standard error, L2 of what is reflected, at which those stop that sample")
-      ->transform(fraction())
-      ->check(within(1e-6, 0.5))
+      ->transform(fraction(1e-6, 0.5))
       ->default_str("1%");
   command.add_option("--sequence", s.solver_settings.sequence, "Of numbers that those sample by")
       ->check(CLI::IsMember(core::sequence_names()))

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <stdexcept>
@@ -42,6 +43,15 @@ std::string in_units(std::string& text, std::initializer_list<std::pair<const ch
   return "'" + text + "' is not " + expected;
 }
 
+std::string to_fraction(std::string& text, const std::function<bool(double)>& is_fine, const std::string& range) {
+  const auto part = quantity_of(text);
+  if (!part || !(part->unit.empty() || part->unit == "%")) return "'" + text + "' is not a part such as 1% or 0.01";
+  const double value = part->value * (part->unit.empty() ? 1.0 : 0.01);
+  if (!is_fine(value)) return "'" + text + "' is not " + range;
+  text = core::format("%.17g", value);
+  return {};
+}
+
 }  // namespace
 
 std::string outside(const std::string& text, double low, double high) {
@@ -74,12 +84,14 @@ std::string no_length(const std::string& text) {
 }
 
 std::string to_fraction(std::string& text) {
-  const auto part = quantity_of(text);
-  if (!part || !(part->unit.empty() || part->unit == "%")) return "'" + text + "' is not a part such as 1% or 0.01";
-  const double value = part->value * (part->unit.empty() ? 1.0 : 0.01);
-  if (!(value > 0 && value < 1)) return "'" + text + "' is outside 0 .. 100 %";
-  text = core::format("%.17g", value);
-  return {};
+  return to_fraction(
+      text, [](double value) { return value > 0 && value < 1; }, "above 0 and below 100 %");
+}
+
+std::string to_fraction(std::string& text, double low, double high) {
+  return to_fraction(
+      text, [=](double value) { return value >= low && value <= high; },
+      core::format("from %g to %g %%", 100 * low, 100 * high));
 }
 
 std::string no_seed(const std::string& text) {

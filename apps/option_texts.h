@@ -20,8 +20,9 @@ std::string to_seconds(std::string& text);
 /// A length in metres above 0.
 std::string no_length(const std::string& text);
 
-/// "1%" or "0.01", in (0, 1), as a number in place of the text.
+/// "1%" or "0.01", in (0, 1), as a number in place of the text; or in [low, high].
 std::string to_fraction(std::string& text);
+std::string to_fraction(std::string& text, double low, double high);
 
 /// 0 .. 2^64 - 1: a parser would take "-1" for the largest.
 std::string no_seed(const std::string& text);

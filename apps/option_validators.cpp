@@ -16,7 +16,13 @@ CLI::Validator count(double most) {
 CLI::Validator memory() { return {to_bytes, "SIZE"}; }
 CLI::Validator duration() { return {to_seconds, "TIME"}; }
 CLI::Validator length() { return {no_length, "METRES"}; }
-CLI::Validator fraction() { return {to_fraction, "PART"}; }
+CLI::Validator fraction() {
+  return {[](std::string& text) { return to_fraction(text); }, "PART"};
+}
+CLI::Validator fraction(double low, double high) {
+  return {[=](std::string& text) { return to_fraction(text, low, high); },
+          core::format("PART in [%g %%, %g %%]", 100 * low, 100 * high)};
+}
 CLI::Validator seed() { return {no_seed, "NUMBER"}; }
 
 }  // namespace interflect::apps

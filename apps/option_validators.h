@@ -13,6 +13,7 @@ CLI::Validator memory();
 CLI::Validator duration();
 CLI::Validator length();
 CLI::Validator fraction();
+CLI::Validator fraction(double low, double high);
 CLI::Validator seed();
 
 }  // namespace interflect::apps

@@ -17,6 +17,11 @@ struct ProvedBounds {
   double seconds;
 };
 
+/// What bounds take beside the solve, which differs between scenes by a factor of 20: very roughly.
+double roughly_seconds_of_bounds(double elements, unsigned threads);
+/// "; bounds very roughly 50 s more (...)"
+std::string bounds_forecast_text(double elements, unsigned threads);
+
 /// Nothing where the run was stopped, which is said: the solution is worth keeping without.
 /// @throws core::InputError  where there are none to be had
 std::unique_ptr<ProvedBounds> proved_bounds(const SolvedScene& solved, double max_memory, Run& run);

@@ -118,11 +118,16 @@ std::string energy_text(const SolvedScene& solved) {
   const fem::EnergyBalance& e = solved.solution.energy;
   const double emitted = scene.weigh(e.emitted);
   const auto part = [&](const Spectrum& flux) { return core::format_percent(scene.weigh(flux) / emitted); };
-  return core::format(
-      "energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s, form-factor error %s, left "
-      "over %.1e\n",
-      emitted, scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(), part(e.on_backs).c_str(),
-      part(e.form_factor_error).c_str(), emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0);
+  const double noise = normal_95 * scene.weigh(e.split_error) / emitted;  // of rays that count what is lost
+  const bool matrix = !solved.solution.row_sum.empty();
+  std::string text =
+      core::format("energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s", emitted,
+                   scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(), part(e.on_backs).c_str());
+  if (matrix) text += ", form-factor error " + part(e.form_factor_error);
+  if (matrix && noise > 0)
+    text += core::format(" +- %.2g %% (noise of the rays that escape)", core::rounded_up(100 * noise, 2));
+  return text + core::format(", left over %.1e%s\n", emitted > 0 ? std::abs(scene.weigh(e.residual)) / emitted : 0.0,
+                             matrix ? "" : " (noise)");
 }
 
 /// What was asked of the matrix beside its entries: tolerance, threshold, repair.

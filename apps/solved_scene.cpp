@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/goals.h"
+#include "apps/proved_bounds.h"
 #include "apps/read_scene.h"
 #include "core/error.h"
 #include "core/format.h"
@@ -93,8 +94,9 @@ std::vector<std::string> energy_warnings(const scene::Scene& scene, const fem::R
   const double imbalance = scene.weigh(solution.energy.form_factor_error);
   if (std::abs(imbalance) - normal_95 * scene.weigh(solution.energy.split_error) > noticeable_imbalance * emitted)
     warnings.push_back(
-        "form factors lose " + core::format_percent(imbalance / emitted) +
-        " of the emitted flux: do faces coincide or lie closer than elements are long?  See interflect check");
+        core::format("form factors %s %s of the emitted flux: do faces coincide, meet at a few degrees, or lie closer "
+                     "than elements are long?  See interflect check",
+                     imbalance > 0 ? "lose" : "make up", core::format_percent(std::abs(imbalance) / emitted).c_str()));
   return warnings;
 }
 
@@ -135,10 +137,13 @@ results::Record forecast_record(const fem::Forecast& forecast) {
 ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
   const scene::Scene scene = read_and_note(options.scene);
   const fem::Forecast forecast = fem::forecast(scene, settings_of(options, scene, measure::sensor_points(scene)), run);
-  if (common.json)
-    std::printf("%s\n", results::json_text(forecast_record(forecast)).c_str());
-  else
-    std::printf("%s%s\n", options.target_error > 0 ? "first pass: " : "", describe(forecast).c_str());
+  results::Record record = forecast_record(forecast);
+  std::string text = (options.target_error > 0 ? "first pass: " : "") + describe(forecast);
+  if (options.bounds) {
+    record.add("bounds_seconds", roughly_seconds_of_bounds(forecast.elements, run.threads.count()));
+    text += bounds_forecast_text(forecast.elements, run.threads.count());
+  }
+  std::printf("%s\n", common.json ? results::json_text(record).c_str() : text.c_str());
   return success;
 }
 
@@ -163,7 +168,7 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
                            settings.adaptive->goal.name.c_str(), 100 * options.target_error)
             : "";
     std::printf("bounding box %s\n%s%s%s\n", box_text(scene).c_str(), plan.c_str(), describe(forecast).c_str(),
-                options.bounds ? ", and bounds, which take far longer" : "");
+                options.bounds ? bounds_forecast_text(forecast.elements, asked.threads.count()).c_str() : "");
   }
   std::fflush(stdout);
   auto solution = fem::solve_radiosity(scene, settings, asked);

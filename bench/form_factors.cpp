@@ -1,8 +1,8 @@
 // Form factors by the analytic method, one thread: nanoseconds a pair at a tolerance of rows, in rooms with and without
 // occluders.
 //
-//   bench_form_factors [TOLERANCE]        limits at 1e-4: 200 ns a pair unoccluded, 1 500 past two boxes, 5 000 past two spheres;
-//                                         two threads 1.8 times as fast as one
+//   bench_form_factors [TOLERANCE]        limits at 1e-4: 200 ns a pair unoccluded, 1 500 past two boxes, 5 000
+//                                         past two spheres; two threads 1.8 times as fast as one
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

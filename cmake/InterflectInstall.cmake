@@ -1,4 +1,5 @@
-# cmake --install: the program, the libraries, their headers, the shipped scenes, and a package for find_package(interflect).
+# cmake --install: the program, the libraries, their headers, the shipped scenes, and a package for
+# find_package(interflect).
 
 include(CMakePackageConfigHelpers)
 

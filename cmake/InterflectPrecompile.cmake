@@ -1,13 +1,13 @@
-# interflect_precompile(<target> [TESTS]): the headers that nearly every file includes, parsed once for all targets, which nearly
-# halves what a file takes; of programs with gtest too (TESTS).
+# interflect_precompile(<target> [TESTS]): the headers that nearly every file includes, parsed once for all targets,
+# which nearly halves what a file takes; of programs with gtest too (TESTS).
 #
-# A file names all that it needs all the same: the presets that do without (dev, tsan, tidy) would tell.  gcc alone takes such
-# headers where a file is compiled with more macros than they were, as every room has of its own.
+# A file names all that it needs all the same: the presets that do without (dev, tsan, tidy) would tell.  gcc alone
+# takes such headers where a file is compiled with more macros than they were, as every room has of its own.
 
 option(INTERFLECT_PRECOMPILE "Parse common headers once (gcc)" OFF)
 
-set(precompiled_headers <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <functional> <limits>
-  <memory> <mutex> <optional> <span> <string> <variant> <vector>)
+set(precompiled_headers <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint>
+  <functional> <limits> <memory> <mutex> <optional> <span> <string> <variant> <vector>)
 
 # What is compiled like the files that take its headers: an object library, or a program where those are.
 function(interflect_precompiled name kind)
@@ -36,8 +36,8 @@ function(interflect_precompile target)
     return()
   endif()
   # gcc 12's false alarms on sums of strings (its bug 105651), which it keeps to itself where a header is the system's;
-  # the presets that do without have these warnings.
-  target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds -fpch-preprocess)  # the last for ccache
+  # the presets that do without have these warnings.  -fpch-preprocess is for ccache.
+  target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds -fpch-preprocess)
   get_target_property(type ${target} TYPE)
   if(ARG_TESTS)
     interflect_precompiled(interflect_test_headers EXECUTABLE HEADERS <gtest/gtest.h> LIBRARIES GTest::gtest)

@@ -15,8 +15,15 @@ endif()
 
 find_program(INTERFLECT_CCACHE ccache)
 if(INTERFLECT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # What headers that are parsed once (InterflectPrecompile) need, of its manual's chapter on them.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${INTERFLECT_CCACHE})
+  # What headers that are parsed once (InterflectPrecompile) need, of its manual's chapter on them, beside what the user
+  # has in the environment or in ccache's configuration.
+  execute_process(COMMAND ${INTERFLECT_CCACHE} -k sloppiness
+    OUTPUT_VARIABLE sloppiness OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  string(REGEX MATCHALL "[a-z_]+" sloppiness "${sloppiness}")
+  list(APPEND sloppiness pch_defines time_macros)
+  list(REMOVE_DUPLICATES sloppiness)
+  list(JOIN sloppiness "," sloppiness)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=${sloppiness} ${INTERFLECT_CCACHE})
 endif()
 
 add_library(interflect_options INTERFACE)

@@ -1,8 +1,8 @@
 # interflect_test(<name> LABEL <label> SOURCES ... [ROOMS ...] [LIBRARIES ...] [TIMEOUT seconds] [DRAWS])
 #
-# One executable, each of its TESTs a ctest case under LABEL (unit, property, convergence, statistical, smoke, corpus, long).
-# DRAWS: through OpenGL, whose drivers keep a few bytes a context for good, and are unloaded before a sanitizer could name them:
-# leaks are not looked for there.
+# One executable, each of its TESTs a ctest case under LABEL (unit, property, convergence, statistical, smoke, corpus,
+# long). DRAWS: through OpenGL, whose drivers keep a few bytes a context for good, and are unloaded before a sanitizer
+# could name them: leaks are not looked for there.
 
 find_package(GTest REQUIRED)
 include(GoogleTest)

@@ -12,7 +12,8 @@ namespace interflect::core {
 ///
 ///   independent   every number by itself
 ///   stratified    of 4 096 samples that follow each other, in each dimension one in each 1/4 096 (a Latin hypercube)
-///   sobol         Sobol's points, scrambled and shifted at random (sobol.h), in the first eight dimensions; independent beyond
+///   sobol         Sobol's points, scrambled and shifted at random (sobol.h), in the first eight dimensions;
+///                 independent beyond
 ///
 /// Each point is uniform by itself, whatever the sequence, so that means are unbiased; only independent ones have
 /// errors that can be told from one sequence.  Of the others several independent replications say how large errors are.

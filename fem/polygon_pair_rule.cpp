@@ -167,41 +167,44 @@ scene::SurfacePatch patch_of(const Panel& panel) {
 class PolygonPairNodes {
  public:
   PolygonPairNodes(const TrianglePairPlaces& places, const Panel& a, const Panel& b, const PairRule::Visit& visit)
-      : places_(places), visit_(visit), a_(patch_of(a)), b_(patch_of(b)) {
+      : places_(places), visit_(visit), panel_a_(a), panel_b_(b), a_(patch_of(a)), b_(patch_of(b)) {
     for (const Vec3& x : a.ring()) near_ = std::max(near_, same_place * (x - a.corner[0]).norm());
     for (const Vec3& x : b.ring()) near_ = std::max(near_, same_place * (x - b.corner[0]).norm());
-    const std::vector<Vec3> of_a = in_front(a, b, near_), of_b = in_front(b, a, near_);
+  }
+  void visit() {
+    const std::vector<Vec3> of_a = in_front(panel_a_, panel_b_, near_), of_b = in_front(panel_b_, panel_a_, near_);
     const Triangles with_a = triangles_of(with_corners_on_sides(of_a, of_b, near_)),
                     with_b = triangles_of(with_corners_on_sides(of_b, of_a, near_)),
                     cut_a = cut_at_corners(with_a, with_b, near_), cut_b = cut_at_corners(with_b, cut_a, near_);
     for (const Triangle& x : cut_a)
-      for (const Triangle& y : cut_b) add(x, y, most_cuts);
-    add_apart();
+      for (const Triangle& y : cut_b) visit_pair(x, y, most_cuts);
+    visit_apart();
   }
 
  private:
-  void add(const Triangle& x, const Triangle& y, int cuts) {
+  /// By what the two have in common; what is apart is left for `visit_apart`.
+  void visit_pair(const Triangle& x, const Triangle& y, int cuts) {
     std::vector<std::pair<std::size_t, std::size_t>> shared;
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t l = 0; l < 3; ++l)
         if ((x.corner[k] - y.corner[l]).norm() <= near_) shared.emplace_back(k, l);
     if (shared.empty()) return cut_apart(x, y, cuts);
     const auto [k, l] = shared[0];
-    if (shared.size() == 1) return add_with_corner(x.from(k), y.from(l), cuts);
-    add(edge_first(x, k, shared[1].first), edge_first(y, l, shared[1].second), places_.edge);
+    if (shared.size() == 1) return visit_with_corner(x.from(k), y.from(l), cuts);
+    visit_places(edge_first(x, k, shared[1].first), edge_first(y, l, shared[1].second), places_.edge);
   }
   /// From corner k, corner `next` being the second.
   static Triangle edge_first(const Triangle& of, std::size_t k, std::size_t next) {
     return (k + 1) % 3 == next ? of.from(k) : of.from(k).mirrored();
   }
   /// Of one size, or else cut.
-  void add_with_corner(const Triangle& x, const Triangle& y, int cuts) {
+  void visit_with_corner(const Triangle& x, const Triangle& y, int cuts) {
     if (cuts > 0 && x.radius() > most_unequal * y.radius())
-      for (const Triangle& part : halves(x)) add(part, y, cuts - 1);
+      for (const Triangle& part : halves(x)) visit_pair(part, y, cuts - 1);
     else if (cuts > 0 && y.radius() > most_unequal * x.radius())
-      for (const Triangle& part : halves(y)) add(x, part, cuts - 1);
+      for (const Triangle& part : halves(y)) visit_pair(x, part, cuts - 1);
     else
-      add(x, y, places_.corner);
+      visit_places(x, y, places_.corner);
   }
   void cut_apart(const Triangle& x, const Triangle& y, int cuts) {
     const double r_x = x.radius(), r_y = y.radius();
@@ -215,26 +218,26 @@ class PolygonPairNodes {
   }
   /// On an interval whose kernel is singular at x half lengths from its middle, n points leave rho^-2n,
   /// ln rho = arcosh x [Trefethen 2008]: the nearest have all points, others those that leave as much.
-  void add_apart() {
+  void visit_apart() {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Apart& pair : apart_) nearest = std::min(nearest, pair.distance);
     const auto most = static_cast<double>(places_.apart.size());
     for (const Apart& pair : apart_) {
       const double share = std::min(1.0, std::acosh(nearest) / std::acosh(pair.distance));
-      add_products(pair.x, pair.y, places_.apart[static_cast<std::size_t>(std::ceil(most * share)) - 1]);
+      visit_products(pair.x, pair.y, places_.apart[static_cast<std::size_t>(std::ceil(most * share)) - 1]);
     }
   }
-  void add_products(const Triangle& x, const Triangle& y, const Rule& rule) {
+  void visit_products(const Triangle& x, const Triangle& y, const Rule& rule) {
     std::vector<OnPanel> of_y;
     for (const RuleNode& node : rule) of_y.push_back(on_panel(b_, y, node.u, node.v, node.weight));
     for (const RuleNode& node : rule) {
       const OnPanel at_x = on_panel(a_, x, node.u, node.v, node.weight);
-      for (const OnPanel& at_y : of_y) visit(at_x, at_y);
+      for (const OnPanel& at_y : of_y) visit_node(at_x, at_y);
     }
   }
-  void add(const Triangle& x, const Triangle& y, const std::vector<Place>& places) {
+  void visit_places(const Triangle& x, const Triangle& y, const std::vector<Place>& places) {
     for (const Place& place : places)
-      visit(on_panel(a_, x, place.a_1, place.a_2, place.weight), on_panel(b_, y, place.b_1, place.b_2, 1));
+      visit_node(on_panel(a_, x, place.a_1, place.a_2, place.weight), on_panel(b_, y, place.b_1, place.b_2, 1));
   }
   /// A place on a panel, whose weight is without the panel's Jacobian.
   struct OnPanel {
@@ -244,7 +247,7 @@ class PolygonPairNodes {
     const mesh::ElementPoint at = mesh::coordinates_in(panel, {0}, part.at(u, v));
     return {at.u, at.v, weight * part.doubled_area() / jacobian(panel.ring(), at.u, at.v)};
   }
-  void visit(const OnPanel& x, const OnPanel& y) { visit_({x.u, x.v, y.u, y.v, x.weight * y.weight}); }
+  void visit_node(const OnPanel& x, const OnPanel& y) { visit_({x.u, x.v, y.u, y.v, x.weight * y.weight}); }
 
   struct Apart {
     Triangle x, y;
@@ -253,6 +256,7 @@ class PolygonPairNodes {
   std::vector<Apart> apart_;
   const TrianglePairPlaces& places_;
   const PairRule::Visit& visit_;
+  const Panel &panel_a_, &panel_b_;
   scene::SurfacePatch a_, b_;
   double near_ = 0;
 };
@@ -313,7 +317,7 @@ PolygonPairRule::PolygonPairRule(int points) : places_(points) {}
 
 void PolygonPairRule::for_nodes(const Panel& a, const Panel& b, const Visit& visit) const {
   if (a.corners < 3 || b.corners < 3) throw core::PreconditionError("PolygonPairRule: triangles and quads expected");
-  PolygonPairNodes(places_, a, b, visit);
+  PolygonPairNodes(places_, a, b, visit).visit();
 }
 
 }  // namespace interflect::fem

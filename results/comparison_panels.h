@@ -8,8 +8,8 @@ namespace interflect::results {
 /// One view as two methods see it, for display: [0, 1] sRGB, channels R, G, B.
 struct ComparisonPanels {
   core::Image fem, traced;  ///< at one exposure, that of the traced picture
-  core::Image
-      difference;  ///< (FEM - traced) / mean of both: blue where FEM is darker, red where it is brighter, white where noise may be all
+  /// (FEM - traced) / mean of both: blue where FEM is darker, red where it is brighter, white where noise may be all
+  core::Image difference;
 };
 
 /// @param fem, traced  radiance in the scene's channels, of one size

@@ -17,7 +17,8 @@ namespace interflect::solvers {
 /// (`RowSweeps`, which need `RowAccess`).  The residual of the new b costs no pass of its own where K is symmetric:
 /// what is missing from row a is what its own step left, and the change of the unknowns after it,
 ///
-///   e + R G^-1 K b - b  at a  =  (1 - w) (1 - rho_a K_aa / G_a) d_a  +  rho_a / G_a sum_{b after a} K_ab (b_b - b_b,before)
+///   e + R G^-1 K b - b  at a  =  (1 - w) (1 - rho_a K_aa / G_a) d_a
+///                                +  rho_a / G_a sum_{b after a} K_ab (b_b - b_b,before)
 ///
 /// and K_ab = K_ba is at hand when row b is swept.  Else it is one `apply` an iteration.
 /// Same bits for any number of threads: sums over a row run in one order, threads share what a block needs.

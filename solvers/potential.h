@@ -16,7 +16,7 @@ namespace interflect::solvers {
 ///
 /// which are the equations of radiosity with R psi for an exitance.  What scores vary by are second moments:
 ///
-///   of a bounce   w_j² = sum_i F_ji q_i²                                            of what is sent by j and scores q_i
+///   of a bounce   w_j² = sum_i F_ji q_i²                                         of what is sent by j and scores q_i
 ///   of a walk     w_j² = sum_i F_ji M_i,   M_i = s_i (2 q_i - s_i) + rho_i sum_j F_ij M_j,  s = R psi
 ///
 /// the latter of collision scores s_i at every hit of a walk that survives by rho.  Whoever draws what is sent in

@@ -15,8 +15,8 @@ namespace interflect::solvers {
 ///   bidirectional          both ways, which needs a symmetric K
 ///   control_variate        one way, of what differs from a constant (constant_control_variate.h), in closed rooms
 ///   global_lines           lines through everything (line_transfer.h)
-///   importance_driven      incremental, rays being drawn in proportion to power times what that is worth to the target,
-///                          w of a bounce in potential.h [Neumann et al. 1996; Bekaert 1999]
+///   importance_driven      incremental, rays being drawn in proportion to power times what that is worth to the
+///                          target, w of a bounce in potential.h [Neumann et al. 1996; Bekaert 1999]
 ///
 /// Errors are by independent replications.
 /// Test: tests/solvers/stochastic_jacobi.cpp

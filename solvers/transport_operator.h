@@ -29,7 +29,8 @@ class SparseRows;
 
 /// h = G^-1 K b: what arrives when b leaves.  Geometry only: no reflectance and no pi left over.
 ///
-///   K_ab = int int N_a(x) cos cos V / (pi r²) N_b(y) dy dx  [m²],   G_ab = int N_a N_b  [m²] (diagonal; areas for constants)
+///   K_ab = int int N_a(x) cos cos V / (pi r²) N_b(y) dy dx  [m²],   G_ab = int N_a N_b  [m²]
+///   (diagonal; areas for constants)
 class TransportOperator {
  public:
   virtual ~TransportOperator() = default;

@@ -101,7 +101,8 @@ struct Leaf {
   double left;
 };
 
-/// (T b)(x) = int k(x, y) b(y) dy of what is linear on elements, over a cell: of a part P that is known, with the mean b_P,
+/// (T b)(x) = int k(x, y) b(y) dy of what is linear on elements, over a cell: of a part P that is known, with the mean
+/// b_P,
 ///
 ///   |int_P k b - F_P(x) b_P| <= across mean |b - b_P|                                             (factor_range.h)
 ///
@@ -110,13 +111,13 @@ struct Leaf {
 ///   (T b)(x) = m + sum_P (b_P - m) F_P(x)
 ///
 /// m is the median of near parts' b_P, by the most that they may send: what the cell's neighbours across an edge have.
-/// From outside m = 0.  Of far parts derivatives add up with their signs, gradients are worth nothing over the mean of a
-/// cell; remainders in sum |b_P - m| remainder_P.  Near parts have
+/// From outside m = 0.  Of far parts derivatives add up with their signs, gradients are worth nothing over the mean of
+/// a cell; remainders in sum |b_P - m| remainder_P.  Near parts have
 ///
 ///   max and min of sum_P (b - m) F_P,    least_P <= F_P <= most_P,    sum_P F_P <= 1 - sum over far parts
 ///
-/// of the most and the least b on them.  A cell most of whose doubt comes from near parts is cut into four, in which those
-/// alone are looked at again.
+/// of the most and the least b on them.  A cell most of whose doubt comes from near parts is cut into four, in which
+/// those alone are looked at again.
 struct CellTransport {
   std::vector<Branch> branches;
   std::vector<Leaf> leaves;

@@ -55,15 +55,15 @@ struct FactorRange {
 ///
 /// By the first, as k is the same for y moving in its plane, k is within 1.6 radius / (pi r_min³) of what it is at the
 /// polygon's centre, and within that for both radii of what it is between both centres; by the second, times the area
-/// and the radius' third power over 6, the remainder is bounded.  The value is Lambert's formula; derivatives are of that
-/// as a sum over edges R = r + t e, 0 <= t <= 1,
+/// and the radius' third power over 6, the remainder is bounded.  The value is Lambert's formula; derivatives are of
+/// that as a sum over edges R = r + t e, 0 <= t <= 1,
 ///
 ///   F = 1/(2 pi) sum  n . (r x e) int dt / R²
 ///   grad F = 1/(2 pi) sum  2 n . (r x e) J - (e x n) int dt / R²,    J = int R / R^4 dt
 ///   d²F/dv² = 1/(2 pi) sum  n . (r x e) int (8 (v . R)² / R^6 - 2 / R^4) dt - 4 (v . (e x n)) (v . J)
 ///
-/// A polygon that touches the cell has bounds alone: most is at most (1 - n . N) / 2, what a half-space behind its plane
-/// sends.
+/// A polygon that touches the cell has bounds alone: most is at most (1 - n . N) / 2, what a half-space behind its
+/// plane sends.
 ///
 /// Errors: of rounding alone; derivatives to 1e-7 of themselves, which is in the remainder.
 /// @param polygon  convex, its side that is seen in front of all of the cell; no corner below the cell's plane, within

@@ -13,7 +13,8 @@ namespace interflect::fem {
 /// Form factors by points on both elements, each pair of points a ray where something may lie between:
 ///
 ///   K_ij = A_i A_j E[cos_x cos_y V / (pi r²)]    x, y uniform on i and on j; far pairs
-///   K_ij = A_i E[Omega_x cos_x V / pi]           x uniform on i, the smaller, y uniform in the solid angle Omega_x of j; near ones
+///   K_ij = A_i E[Omega_x cos_x V / pi]           x uniform on i, the smaller, y uniform in the solid angle Omega_x of
+///                                                j; near ones
 ///
 /// Near pairs need the second form: of two elements that touch, the variance of the first is infinite.  The second is
 /// at most A_i.

@@ -13,8 +13,10 @@ namespace interflect::fem {
 /// the sphere, a point uniform on the disk of radius R across it, R and its centre those of a ball that holds all
 /// elements. Such a line has density 1 / (4 pi) [1/sr] times 1 / (pi R²) [1/m²], so that
 ///
-///   P(it crosses a planar element) = int |cos| dw A / (4 pi pi R²) = A / (2 pi R²);  S / (4 pi R²) for a convex body of surface S
-///   P(it leaves i and meets j next) = int_i int_j cos cos V / r² / (4 pi² R²) = K_ij / (4 pi R²),    the same for j and i
+///   P(it crosses a planar element) = int |cos| dw A / (4 pi pi R²) = A / (2 pi R²);
+///                                    S / (4 pi R²) for a convex body of surface S
+///   P(it leaves i and meets j next) = int_i int_j cos cos V / r² / (4 pi² R²) = K_ij / (4 pi R²),
+///                                    the same for j and i
 ///
 /// All that a line meets is taken in order; each two that follow each other, the first seen from behind and the second
 /// from in front, are an exchange.

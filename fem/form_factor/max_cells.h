@@ -22,7 +22,8 @@ namespace interflect::fem {
 /// is least for about (t in [-1, 1] on the top and across a side, in [0, 1] up a side; a = 1 / height is half the top's
 /// width)
 ///
-///   height 1.44,   x, y = a tan(0.74 t) / tan(0.74),   across x = tan(0.856 t) / tan(0.856),   up z = height tan(1.035 t^0.598) / tan(1.035)
+///   height 1.44,   x, y = a tan(0.74 t) / tan(0.74),   across x = tan(0.856 t) / tan(0.856),
+///   up z = height tan(1.035 t^0.598) / tan(1.035)
 ///
 /// whose J is 0.56 of that of equal cells on half a cube, and 0.76 of that of rows and columns of equal form factor
 /// there.  Other counts of rows and columns gain less than one per cent more.  Test: tests/fem/hemicube.cpp, where

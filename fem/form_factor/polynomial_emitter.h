@@ -16,7 +16,8 @@ namespace interflect::fem {
 /// xi^i eta^j / r^4, J_ij that over r² and L that of ln r²,
 ///
 ///   F_ij = h / pi (n_1 I_{i+1,j} + n_2 I_{i,j+1} - h n_3 I_ij)
-///   I_ij = ((i - 1) J_{i-2,j} - line(xi^{i-1} eta^j m_1 / r²)) / 2,  i > 0, and likewise in eta;   2 h² I_00 = line(d / r²)
+///   I_ij = ((i - 1) J_{i-2,j} - line(xi^{i-1} eta^j m_1 / r²)) / 2,  i > 0, and likewise in eta;
+///   2 h² I_00 = line(d / r²)
 ///   J_10 = line(m_1 ln r²) / 2,  J_11 = line(eta m_1 ln r²) / 2,  J_20 = (line(xi m_1 ln r²) - L) / 2
 ///   2 L = line(d ln r²) - 2 A + 2 h² J_00
 ///

@@ -81,8 +81,8 @@ class VisibilitySampler {
   /// @param rays_per_pair  for Effort::single: m² is the next square, at least 4
   /// @param seed           of the run: it is made one of visibility's own here
   /// @param largest_error  standard error of V up to which a pair gets more rays, in sets that are stratified each,
-  ///                       until it has `most_rays`; 0: none.  That their number depends on what the first ones found moves
-  ///                       the mean of V by O(1/n).
+  ///                       until it has `most_rays`; 0: none.  That their number depends on what the first ones found
+  ///                       moves the mean of V by O(1/n).
   VisibilitySampler(std::span<const scene::SurfacePatch> patches, const raycast::RayCaster& rays, int rays_per_pair,
                     std::uint64_t seed, double largest_error = 0);
 

@@ -57,7 +57,8 @@ struct DualWeighted {
 ///
 /// K's entries are off by up to `tolerance` of them, each in its own way:
 ///
-///   J = <z, e>,   dJ = sum_ab w_a dK_ab b_b   ~   tolerance sqrt(sum_{a<b} (w_a b_b + w_b b_a)² K_ab²)     [constants alone]
+///   J = <z, e>,   dJ = sum_ab w_a dK_ab b_b   ~   tolerance sqrt(sum_{a<b} (w_a b_b + w_b b_a)² K_ab²)
+///   [constants alone]
 ///
 /// @param b  the solution, unknowns x channels
 /// Test: tests/fem/goal/dual_weighted.cpp

@@ -55,6 +55,8 @@ TEST(BadInput, goals_that_are_none) {
   expect_refused({"solve", scene, "-o", "x", "--goal", "nowhere"}, "one of middle_down, middle_up, camera:inside, or");
   expect_refused({"solve", scene, "-o", "x", "--goal", "camera:nowhere"}, "--goal camera:nowhere");
   expect_refused({"solve", scene, "-o", "x", "--target-error", "2"}, "--target-error");
+  expect_refused({"solve", scene, "-o", "x", "--goal", "floor", "--form-factors", "duffy", "--target-error", "1%"},
+                 "by analytic ones, which have no noise: --form-factors analytic");
   expect_refused({"solve", scene, "-o", "x", "--goal", "floor", "--order", "3"}, "order 1 or 2");
   expect_refused({"solve", scene, "-o", "x", "--goal", "floor", "--order", "0"}, "order 1 or 2");
   expect_refused({"render", scene, "-o", "x.png", "--camera", "nowhere"}, "--camera nowhere");
@@ -69,6 +71,27 @@ TEST(BadInput, settings_that_the_method_has_not) {
   expect_refused({"exchange", scene, "-o", "x", "--resolution", "64"}, "--resolution");
   expect_refused({"solve", scene, "-o", "x", "--order", "1", "--visibility-rays", "64"}, "--visibility-rays");
   expect_refused({"solve", scene, "-o", "x", "--samples", "100"}, "gauss-lambert");
+}
+
+TEST(BadInput, settings_that_view_factors_of_a_file_do_not_heed) {
+  const std::vector<std::pair<const char*, const char*>> settings{{"--form-factors", "analytic"},
+                                                                  {"--quadrature-tolerance", "1e-4"},
+                                                                  {"--visibility-rays", "64"},
+                                                                  {"--visibility-error", "5%"}};
+  for (const auto& [name, value] : settings)
+    for (const char* command : {"solve", "validate", "render"})
+      expect_refused({command, shipped_scene("cube"), "-o", "x", "--factors", "F.h5", name, value},
+                     std::string(name) + ": the view factors of a file do not heed it");
+}
+
+TEST(BadInput, percents_out_of_a_range_that_is_told_in_percents) {
+  const std::string scene = shipped_scene("cube");
+  expect_refused({"solve", scene, "-o", "x", "--visibility-error", "60%"}, "'60%' is not from 0.1 to 50 %");
+  expect_refused({"solve", scene, "-o", "x", "--noise", "0.6"}, "'0.6' is not from 0.0001 to 50 %");
+  expect_refused({"solve", scene, "-o", "x", "--unshot", "200%"}, "'200%' is not from 0 to 100 %");
+  expect_refused({"shoot", scene, "-o", "x", "--unshot", "0"}, "'0' is not above 0 and below 100 %");
+  expect_refused({"validate", scene, "-o", "x", "--accuracy", "100%"}, "'100%' is not above 0 and below 100 %");
+  expect_refused({"solve", scene, "-o", "x", "--target-error", "1 mm"}, "'1 mm' is not a part such as 1% or 0.01");
 }
 
 TEST(BadInput, numbers_that_are_none_or_out_of_range) {

@@ -238,6 +238,38 @@ TEST(Solve, a_forecast_is_a_result_and_needs_no_folder) {
   }
 }
 
+// Bounds are no part of what a forecast measures: so many seconds an element, which differ between scenes.
+TEST(Solve, a_forecast_says_what_bounds_take_roughly) {
+  const std::vector<std::string> asked{"solve",    shipped_scene("cube"), "--element-size", "0.5",
+                                       "--bounds", "--forecast",          "--threads",      "2"};
+  const Outcome text = interflect(asked);
+  EXPECT_TRUE(contains(text.out, "24 elements, ") && contains(text.out, "; bounds very roughly 1.2 s more ("))
+      << text.out;
+  std::vector<std::string> as_json = asked;
+  as_json.emplace_back("--json");
+  EXPECT_DOUBLE_EQ(json::parse(interflect(as_json).out).at("bounds_seconds"), 1.2);
+}
+
+// By rays it is known what an open scene loses: their noise is in what is left for form factors.  A closed one loses
+// none, and without a matrix there are no form factors.
+TEST(Solve, the_energy_balance_says_what_is_noise) {
+  const TemporaryFolder folder;
+  const auto energy_of = [&](const char* scene, const std::vector<std::string>& more) {
+    std::vector<std::string> command{"solve", shipped_scene(scene), "--element-size", "0.5", "--no-pictures",
+                                     "-o",    folder / "out"};
+    command.insert(command.end(), more.begin(), more.end());
+    const std::string text = interflect(command).out;
+    const std::size_t at = text.find("energy  ");
+    return at == std::string::npos ? text : text.substr(at, text.find('\n', at) - at);
+  };
+  const char* noise = "% (noise of the rays that escape), left over";
+  const std::string open = energy_of("cornell_box", {}), closed = energy_of("cube", {}),
+                    sampled = energy_of("cornell_box", {"--solver", "stochastic-jacobi"});
+  EXPECT_TRUE(contains(open, "form-factor error ") && contains(open, " % +- ") && contains(open, noise)) << open;
+  EXPECT_TRUE(contains(closed, "form-factor error ") && !contains(closed, "noise")) << closed;
+  EXPECT_TRUE(!contains(sampled, "form-factor error") && contains(sampled, " (noise)")) << sampled;
+}
+
 TEST(Solve, the_summary_says_what_ran) {
   const TemporaryFolder folder;
   const Outcome solve = interflect({"solve", shipped_scene("cube"), "--element-size", "0.5", "--no-pictures", "--seed",

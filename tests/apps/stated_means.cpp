@@ -48,7 +48,8 @@ const std::string room = R"({ "format": "interflect/scene/1", "units": "m", "cha
     { "name": "lamp", "material": "lamp", "polygon": [[1.5,1.2,2.2], [1.5,1.8,2.2], [2.7,1.8,2.2], [2.7,1.2,2.2]] },
     { "name": "board", "material": "board", "polygon": [[2.2,0.8,1.4], [3.2,0.8,1.4], [3.2,2.2,1.4], [2.2,2.2,1.4]] } ],
   "sensors": [
-    { "name": "plane", "normal": [0, 0, 1], "grid": { "origin": [0.5, 0.5, 0.8], "u": [3, 0, 0], "v": [0, 2, 0], "counts": [6, 4] } },
+    { "name": "plane", "normal": [0, 0, 1],
+      "grid": { "origin": [0.5, 0.5, 0.8], "u": [3, 0, 0], "v": [0, 2, 0], "counts": [6, 4] } },
     { "name": "shade", "normal": [0, 0, 1], "points": [[2.7, 1.5, 0.8], [2.9, 1.3, 0.8], [2.6, 1.8, 0.8]] } ] })";
 
 // The bound is one of the value as it is printed, so that it is no less than what the summary has.  Whoever halves the

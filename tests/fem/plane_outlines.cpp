@@ -22,8 +22,8 @@ std::vector<scene::SurfacePatch> floor_of_a_star(const test::Placing& place) {
   return floor;
 }
 
-// Of points drawn from each element that one alone holds them, or none where they are too close to an edge: of uniform ones
-// less than one in a thousand.
+// Of points drawn from each element that one alone holds them, or none where they are too close to an edge: of uniform
+// ones less than one in a thousand.
 TEST(PlaneOutlines, hold_the_points_of_their_element_and_no_others) {
   for (const auto& placing : test::placings) {
     const auto patches = floor_of_a_star(placing);

@@ -140,8 +140,8 @@ TEST(ProgressiveRadiosity, shows_much_early) {
   EXPECT_LE(first, progressive.emitting() + progressive.mesh().size() / 25);
 }
 
-// The office, to 10 % (L2 of H over what does not emit, with ambient) by no more rows than emitting elements and one in a
-// hundred of all.
+// The office, to 10 % (L2 of H over what does not emit, with ambient) by no more rows than emitting elements and one in
+// a hundred of all.
 TEST(ProgressiveRadiosity, shows_the_office_by_few_rows) {
   const scene::Scene scene = scene::read_scene(std::string(INTERFLECT_SOURCE_DIR) + "/data/scenes/office.json");
   core::LocalRun run(1, 2);

@@ -199,10 +199,10 @@ SphereErrors sphere_errors(int level) {
   return {std::abs(moment / (4 * pi / 3) - 1), std::sqrt(squares / area), field};
 }
 
-// docs/truths.md 2.1: inside a sphere the irradiance is the same everywhere, <E> / (1 - rho), whatever E: 2 for E = 1 + cos(theta)
-// and rho = 1/2, so B = 2 + cos(theta).  (The area mean of H is exact for any facets, by the rows' sums.)  A weighted mean of
-// B has order 2, by the facets' area; the field has order 1, by E; and so has H, facet by facet: a facet's normal goes
-// through its circumcentre and not through its centroid.
+// docs/truths.md 2.1: inside a sphere the irradiance is the same everywhere, <E> / (1 - rho), whatever E: 2 for E = 1 +
+// cos(theta) and rho = 1/2, so B = 2 + cos(theta).  (The area mean of H is exact for any facets, by the rows' sums.)  A
+// weighted mean of B has order 2, by the facets' area; the field has order 1, by E; and so has H, facet by facet: a
+// facet's normal goes through its circumcentre and not through its centroid.
 TEST(Radiosity, in_a_sphere_converges_to_uniform_irradiance) {
   const SphereErrors a = sphere_errors(1), b = sphere_errors(2);
   EXPECT_NEAR(std::log2(a.moment / b.moment), 2.0, 0.2);

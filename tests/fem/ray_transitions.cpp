@@ -37,8 +37,8 @@ struct Furnished {
   std::unique_ptr<raycast::RayCaster> rays;
 };
 
-// Counts of 40 000 draws from each element against analytic form factors: within five standard errors of a binomial, and
-// their chi² over all pairs that can expect ten of them as large as it should be.
+// Counts of 40 000 draws from each element against analytic form factors: within five standard errors of a binomial,
+// and their chi² over all pairs that can expect ten of them as large as it should be.
 TEST(RayTransitions, have_form_factors_for_probabilities) {
   const Furnished room;
   const RayTransitions transitions(room.patches, *room.rays);
@@ -167,9 +167,9 @@ TEST(RayTransitions, solve_for_polynomials) {
     }
 }
 
-// What arrives is spread over an element before it leaves, in the equations and in discrete walks; a continuous walk goes on
-// from where it is.  Its means are those of light: of fine elements, averaged.  A room three times as long as wide, an
-// element a wall, and light at one end.
+// What arrives is spread over an element before it leaves, in the equations and in discrete walks; a continuous walk
+// goes on from where it is.  Its means are those of light: of fine elements, averaged.  A room three times as long as
+// wide, an element a wall, and light at one end.
 TEST(RayTransitions, go_on_from_points_to_what_light_does) {
   const auto solved = [](int n, const char* solver) {
     Room room;
@@ -207,8 +207,8 @@ TEST(RayTransitions, go_on_from_points_to_what_light_does) {
   EXPECT_GT(coarse, 1.7 * fine);
 }
 
-/// Slope of log2 of the error of one bounce against log2 of the rays, 2^10 .. 2^18, and its standard error; errors are root
-/// mean squares over the elements of a cube and 24 replications.
+/// Slope of log2 of the error of one bounce against log2 of the rays, 2^10 .. 2^18, and its standard error; errors are
+/// root mean squares over the elements of a cube and 24 replications.
 std::pair<double, double> slope_of(const std::string& name) {
   Room room;
   room.box({0, 0, 0}, {1, 1, 1}, 2, true, .6);

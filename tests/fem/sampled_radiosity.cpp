@@ -35,8 +35,8 @@ RadiositySettings settings_of(const std::string& solver, double size = .25) {
 using Needs = solvers::SolverEntry::Needs;
 bool by_survival(const std::string& solver) { return solver.find("survival") != std::string::npos; }
 
-// Every solver that samples against the matrix: the chi² of deviations in what they state is as it should be, also of what
-// reflects nothing.
+// Every solver that samples against the matrix: the chi² of deviations in what they state is as it should be, also of
+// what reflects nothing.
 TEST(SampledRadiosity, is_what_the_matrix_says) {
   const scene::Scene scene = furnished();
   core::LocalRun run(4, 2);
@@ -63,7 +63,8 @@ TEST(SampledRadiosity, is_what_the_matrix_says) {
   }
 }
 
-// Means of a whole surface have an error that holds too, by what the room's power as a whole varies by: of 40 seeds 95 %.
+// Means of a whole surface have an error that holds too, by what the room's power as a whole varies by: of 40 seeds
+// 95 %.
 TEST(SampledRadiosity, knows_what_elements_share) {
   const scene::Scene scene = furnished();
   core::LocalRun first(1, 2);
@@ -108,9 +109,10 @@ TEST(SampledRadiosity, is_the_same_at_any_scale_and_for_any_threads) {
   }
 }
 
-// Errors of discretisation are estimated from what irradiance varies by, noise subtracted, where noise is little, inside them and in
-// those that they see: 95 % of elements are within. The others are the underside of the box, which sees nothing but the edge of
-// a shadow that elements of the floor are too large for, and is off by 1.2 to 1.6 times what is stated.
+// Errors of discretisation are estimated from what irradiance varies by, noise subtracted, where noise is little,
+// inside them and in those that they see: 95 % of elements are within. The others are the underside of the box, which
+// sees nothing but the edge of a shadow that elements of the floor are too large for, and is off by 1.2 to 1.6 times
+// what is stated.
 TEST(SampledRadiosity, states_errors_that_hold) {
   const scene::Scene scene = furnished();
   core::LocalRun run(4, 2);

@@ -55,8 +55,8 @@ int sweeps_of(const std::string& name, const Cube& cube) {
   return needed;
 }
 
-// docs/truths.md 1.17.  Jacobi's first product is of the start B = E itself; conjugate gradients' first is the right-hand
-// side of t, so that they have one more than steps.
+// docs/truths.md 1.17.  Jacobi's first product is of the start B = E itself; conjugate gradients' first is the
+// right-hand side of t, so that they have one more than steps.
 TEST(SolversOnACube, need_as_many_iterations_as_are_known) {
   const struct {
     double rho;
@@ -121,8 +121,8 @@ TEST(SolverComparison, of_a_goal_has_all_arrive_at_one_number) {
     }
 }
 
-// The mean on the work plane of the room without a lamp, for as many rays from the lamp: rays drawn for it leave a third of the
-// variance at most, and less for as many rays in all, those that find out what light is worth included.
+// The mean on the work plane of the room without a lamp, for as many rays from the lamp: rays drawn for it leave a
+// third of the variance at most, and less for as many rays in all, those that find out what light is worth included.
 TEST(SolverComparison, of_two_rooms_has_importance_lower_the_variance) {
   const scene::Scene scene = scene::read_scene(INTERFLECT_SOURCE_DIR "/data/scenes/two_rooms.json");
   Goal::AtPoints plane;

@@ -45,8 +45,8 @@ TEST(SharedCorners, are_means_of_corners_that_do_not_hang) {
   }
 }
 
-// Quads on both sides of a line whose corners there alternate, each in the middle of the other side's edge: none can hang
-// on all others.
+// Quads on both sides of a line whose corners there alternate, each in the middle of the other side's edge: none can
+// hang on all others.
 TEST(SharedCorners, that_hang_on_each_other_are_told_apart) {
   scene::SceneBuilder builder({"y"}, scene::Quantity::radiometric);
   const scene::Material white{"white", Spectrum(.5), Spectrum(0.0), scene::Sides::front};

@@ -35,7 +35,8 @@ TEST(SmoothMesh, covers_the_elements) {
   for (std::size_t i = 0; i < area.size(); ++i) EXPECT_NEAR(area[i], mesh.patches()[i].area, 1e-12 * area[i]);
 }
 
-// Inside a plane every edge but those of its outline is the edge of two triangles, with the same three points: no cracks.
+// Inside a plane every edge but those of its outline is the edge of two triangles, with the same three points: no
+// cracks.
 TEST(SmoothMesh, has_no_cracks) {
   const scene::Scene scene = mixed_scene();
   const ElementMesh mesh = hanging(scene);

@@ -38,8 +38,8 @@ Case furnace(double scale) {
   return {"furnace", FullOperator(A * A.transpose() / A.sum(), A), .7 * one, 2 * one, 2 / .3 * one};
 }
 
-/// A sphere in another, with a = A_1 / A_2: F_12 = 1, F_21 = a, F_22 = 1 - a, shared by area; each of one reflectance, with
-/// emissions that differ.  h_1 = b_2 and h_2 = a b_1 + (1 - a) b_2 of the means b_1, b_2.
+/// A sphere in another, with a = A_1 / A_2: F_12 = 1, F_21 = a, F_22 = 1 - a, shared by area; each of one reflectance,
+/// with emissions that differ.  h_1 = b_2 and h_2 = a b_1 + (1 - a) b_2 of the means b_1, b_2.
 Case concentric(double scale) {
   const Index n1 = 4, n2 = 6;
   const double A1 = scale, A2 = 3 * scale, a = A1 / A2, rho1 = .3, rho2 = .6;

@@ -65,8 +65,8 @@ double work_of(const std::string& name, const FullOperator& K, const ColumnMatri
   return G.dot(state.standard_error.cwiseAbs2().col(0)) * report.rows();
 }
 
-// Areas over four decades and one small lamp: shooting finds small elements seldom, gathering finds the lamp seldom.  Both
-// together leave less than each alone.
+// Areas over four decades and one small lamp: shooting finds small elements seldom, gathering finds the lamp seldom.
+// Both together leave less than each alone.
 TEST(CombinedWalks, are_better_than_either) {
   const Index n = 30;
   FullOperator K = random_operator(n, 51);

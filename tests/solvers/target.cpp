@@ -101,8 +101,8 @@ std::pair<double, double> sampled(const std::string& name, const System& system)
   return {state.target(0), state.target_error(0) * state.target_error(0) * 4000 * 64};
 }
 
-// Variances of J, in closed form for the births that there are: 4 000 repetitions know them to 2.2 %, and five times as much is
-// allowed for; worth that was found by rays is a percent off.
+// Variances of J, in closed form for the births that there are: 4 000 repetitions know them to 2.2 %, and five times as
+// much is allowed for; worth that was found by rays is a percent off.
 TEST(TargetWalk, has_the_variances_that_are_known) {
   const Asked of;
   const System system = of.system();

@@ -79,7 +79,8 @@ TEST(TileProduct, has_the_same_bits_for_any_division_into_rows_and_columns) {
       EXPECT_EQ(of.received, received) << rows;
       EXPECT_EQ(of.sent, sent) << rows;
     }
-    // Every column alone is what it is among others: kernels of one column are for short vectors, of more for long ones.
+    // Every column alone is what it is among others: kernels of one column are for short vectors, of more for long
+    // ones.
     for (Index c = 0; c < columns; ++c) {
       Products alone = of;
       alone.x = of.x.row(c);

@@ -79,7 +79,8 @@ inline std::vector<Estimate> means(
   return found;
 }
 
-/// |answer - truth| <= slack + bound + z_max SE, family alpha 1e-3 by Sidak, and bound + SE <= `largest_error` relative.
+/// |answer - truth| <= slack + bound + z_max SE, family alpha 1e-3 by Sidak, and bound + SE <= `largest_error`
+/// relative.
 inline void expect_true(const std::string& method, const scene::Scene& scene, const std::vector<Truth>& truths,
                         const std::vector<Estimate>& found, double largest_error) {
   const double z_max = validation::sidak_z_max(1e-3, truths.size() * static_cast<std::size_t>(scene.channel_count()));

@@ -8,8 +8,8 @@ namespace {
 
 using test::Room;
 
-// The cube's floor emits 1; mean radiosities of floor, ceiling and a wall are known to 5e-7 (rho = 0.5) and 2e-6 (0.8) by
-// graded meshes and extrapolation.
+// The cube's floor emits 1; mean radiosities of floor, ceiling and a wall are known to 5e-7 (rho = 0.5) and 2e-6 (0.8)
+// by graded meshes and extrapolation.
 TEST(AdaptiveElements, find_the_limit_of_the_cube) {
   struct Known {
     double rho, floor, ceiling, wall, uncertainty;

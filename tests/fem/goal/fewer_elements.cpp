@@ -22,8 +22,8 @@ double elements_with(double error, std::span<const AdaptivePass> passes) {
   return 0;
 }
 
-// The mean of a plane behind a door that is ajar: elements made for it against uniform ones of degree 2 and of degree 1, at
-// the same estimated error.  About three minutes.
+// The mean of a plane behind a door that is ajar: elements made for it against uniform ones of degree 2 and of degree
+// 1, at the same estimated error.  About three minutes.
 TEST(AdaptiveElements, are_five_times_fewer_than_uniform_ones) {
   const scene::Scene scene = scene::read_scene(INTERFLECT_SOURCE_DIR "/data/scenes/two_rooms.json");
   const auto rays = raycast::make_ray_caster("embree", scene);

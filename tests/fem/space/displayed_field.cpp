@@ -12,8 +12,8 @@ namespace {
 
 double wave(const Vec3& x) { return std::sin(2 * x.x() + 1) * std::cos(1.5 * x.y()) + x.x() * x.z(); }
 
-/// sqrt(int (displayed - f)²) of f's best approximation of an order, made continuous, on elements of which every third is
-/// cut into four.
+/// sqrt(int (displayed - f)²) of f's best approximation of an order, made continuous, on elements of which every third
+/// is cut into four.
 double distance(const mesh::ElementMesh& mesh, int order) {
   std::vector<Panel> panels;
   for (const scene::SurfacePatch& patch : mesh.patches()) panels.push_back(panel_of(patch));

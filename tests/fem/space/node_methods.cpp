@@ -287,8 +287,8 @@ TEST(NodeMethods, refuse_solvers_that_want_a_symmetric_matrix) {
   }
 }
 
-// A chequerboard of values at the corners of squares has a projection onto linear functions of 0: it cannot be told from
-// none.
+// A chequerboard of values at the corners of squares has a projection onto linear functions of 0: it cannot be told
+// from none.
 TEST(NodeMethods, refuse_corners_that_depend_on_each_other) {
   Room room;
   room.wall({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, .5, 1);

@@ -147,8 +147,8 @@ TEST(FlatlandStrips, orders_of_collocation_at_gauss_points_are_those_of_the_tabl
   expect_table(by_collocation, {2, 3, 6.01, 6.01, 6.03, 6.550e-7, 6.275e-13});
 }
 
-// Interpolation at vertices integrates polynomials of degree 1 and no more, where that at Gauss points has degree 3; with
-// the middle, Simpson's rule, degree 3.
+// Interpolation at vertices integrates polynomials of degree 1 and no more, where that at Gauss points has degree 3;
+// with the middle, Simpson's rule, degree 3.
 TEST(FlatlandStrips, collocation_at_vertices_gains_less) {
   EXPECT_NEAR(std::log2(largest_error_at_vertices(16, 1) / largest_error_at_vertices(32, 1)), 2, .05);
   EXPECT_NEAR(std::log2(largest_error_at_vertices(16, 2) / largest_error_at_vertices(32, 2)), 4, .05);
