@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 
 #include "core/vec.h"
@@ -20,12 +21,54 @@ inline Frame frame_around(const Vec3& n) {
   return {{1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}, n};
 }
 
+/// Sine and cosine of `turns` whole turns, 0 <= turns <= 1, within 2e-16: without a branch, so that loops over them
+/// become vectors.  By Taylor's series in what is left of the nearest quarter, |x| <= pi / 4, whose next terms are
+/// 5e-17 and 2e-18.
+inline void sin_cos_turns(double turns, double& sine, double& cosine) {
+  const int quarter = static_cast<int>(4 * turns + 0.5);
+  const double x = 2 * pi * (turns - 0.25 * quarter), xx = x * x;
+  const double s =
+      x * (1 + xx * (-1. / 6 +
+                     xx * (1. / 120 +
+                           xx * (-1. / 5040 +
+                                 xx * (1. / 362880 +
+                                       xx * (-1. / 39916800 + xx * (1. / 6227020800 + xx * (-1. / 1307674368000))))))));
+  const double c =
+      1 + xx * (-1. / 2 +
+                xx * (1. / 24 +
+                      xx * (-1. / 720 +
+                            xx * (1. / 40320 +
+                                  xx * (-1. / 3628800 + xx * (1. / 479001600 + xx * (-1. / 87178291200 +
+                                                                                     xx * (1. / 20922789888000))))))));
+  const double odd = quarter & 1, even = 1 - odd;
+  sine = (1 - (quarter & 2)) * (even * s + odd * c);
+  cosine = (1 - ((quarter + 1) & 2)) * (even * c + odd * s);
+}
+
 /// A direction about +z with pdf_solid_angle = cos(theta) / pi [1/sr]; z > 0 always, for u < 1.  (Malley: a uniform
 /// disk, lifted.)
 inline Vec3 cosine_hemisphere(double u, double v) {
-  const double r = std::sqrt(u), phi = 2 * pi * v;
-  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)};
+  double sine, cosine;
+  sin_cos_turns(v, sine, cosine);
+  const double r = std::sqrt(u);
+  return {r * cosine, r * sine, std::sqrt(1 - u)};
 }
+
+/// Many of them at once, which is several times sooner.
+template <int N>
+struct CosineHemisphere {
+  Eigen::Array<double, N, 1> u = Eigen::Array<double, N, 1>::Zero(), v = u;
+
+  void find() {
+    for (Index k = 0; k < N; ++k) sin_cos_turns(v[k], y_[k], x_[k]);
+    const Eigen::Array<double, N, 1> r = u.sqrt();
+    x_ *= r, y_ *= r, z_ = (1 - u).sqrt();
+  }
+  Vec3 operator[](Index k) const { return {x_[k], y_[k], z_[k]}; }
+
+ private:
+  Eigen::Array<double, N, 1> x_, y_, z_;
+};
 
 /// A point of a triangle with pdf_area = 1 / area [Turk 1990].
 inline Vec3 triangle_point(const Vec3& a, const Vec3& b, const Vec3& c, double u, double v) {

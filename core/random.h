@@ -39,6 +39,11 @@ constexpr RandomBlock random_block(std::uint64_t seed, std::uint32_t stream, std
   return philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), stream, block}, seed);
 }
 
+/// random_block() of first, first + 1, .. at once: word w of block b is words[w][b].
+constexpr std::size_t blocks_at_once = 8;
+using RandomBlocks = std::array<std::array<std::uint32_t, blocks_at_once>, 4>;
+RandomBlocks random_blocks(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, std::uint32_t first);
+
 /// A uniform number in [0, 1) with 32 bits; it never rounds up to 1.
 constexpr double uniform_32(std::uint32_t bits) { return bits * 0x1p-32; }
 
@@ -83,8 +88,12 @@ class RandomNumbers {
   int used_ = 2;
 };
 
-/// What RandomNumbers(seed, stream, first + k) gives first, of each k after the other: `dimensions` numbers.  Several
-/// times sooner than one by one, since samples share each instruction.
+/// Of RandomNumbers(seed, stream, index) of every index the numbers first .. first + count - 1, sample after sample.
+/// Several times sooner than one by one, since samples share each instruction.
+/// @param u  overwritten; count a sample
+void random_numbers(std::uint64_t seed, std::uint32_t stream, std::span<const std::uint64_t> indices, std::size_t first,
+                    std::size_t count, std::span<double> u);
+/// The same of samples first, first + 1, .. of a stream, from number 0 on.
 /// @param u  overwritten; dimensions a sample
 void random_numbers(std::uint64_t seed, std::uint32_t stream, std::uint64_t first, std::size_t dimensions,
                     std::span<double> u);

@@ -24,6 +24,9 @@ class Independent final : public SampleSequence {
   void points(std::uint64_t first, std::size_t dimensions, std::span<double> u) const override {
     random_numbers(seed_, 0, first, dimensions, u);
   }
+  void points_of(std::span<const std::uint64_t> which, std::size_t dimensions, std::span<double> u) const override {
+    random_numbers(seed_, 0, which, 0, dimensions, u);
+  }
   std::unique_ptr<SampleSequence> replicate(std::uint64_t number) const override {
     return std::make_unique<Independent>(seed_of_replication(seed_, number));
   }
@@ -90,6 +93,11 @@ class ShiftedSobol final : public SampleSequence {
 void SampleSequence::points(std::uint64_t first, std::size_t dimensions, std::span<double> u) const {
   for (std::size_t k = 0; (k + 1) * dimensions <= u.size(); ++k)
     point(first + k, u.subspan(k * dimensions, dimensions));
+}
+
+void SampleSequence::points_of(std::span<const std::uint64_t> which, std::size_t dimensions,
+                               std::span<double> u) const {
+  for (std::size_t k = 0; k < which.size(); ++k) point(which[k], u.subspan(k * dimensions, dimensions));
 }
 
 std::vector<std::string> sequence_names() { return {"independent", "stratified", "sobol"}; }

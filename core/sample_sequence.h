@@ -26,6 +26,8 @@ class SampleSequence {
   /// Points from `first` on, one after the other, each of so many dimensions: the same numbers, where it can be sooner.
   /// @param u  overwritten; as long as some points
   virtual void points(std::uint64_t first, std::size_t dimensions, std::span<double> u) const;
+  /// The same of points that need not follow each other.
+  virtual void points_of(std::span<const std::uint64_t> which, std::size_t dimensions, std::span<double> u) const;
   /// One of the same kind, independent of this one and of all with another number.
   virtual std::unique_ptr<SampleSequence> replicate(std::uint64_t number) const = 0;
 };

@@ -163,8 +163,8 @@ void copy_kept(const SymmetricOperator& before, std::span<const Index> same_as, 
   });
 }
 
-/// Of entries.  Pictures are asked for none: their bounds are the worst that a cell may do, some hundred times what cells
-/// do together, and row sums tell that.
+/// Of entries.  Pictures are asked for none: their bounds are the worst that a cell may do, some hundred times what
+/// cells do together, and row sums tell that.
 double tolerance_to_miss(const RadiositySettings& settings) {
   return setting_of(settings.form_factors) == Setting::resolution ? std::numeric_limits<double>::infinity()
                                                                   : settings.quadrature_tolerance;

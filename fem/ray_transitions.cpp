@@ -44,12 +44,19 @@ void RayTransitions::from_elements(std::span<const Index> from, std::span<const 
   constexpr std::size_t at_once = 64;  // what they take stays in the first cache
   std::array<raycast::Ray, at_once> rays;
   std::array<std::optional<scene::SurfacePoint>, at_once> hits;
+  core::CosineHemisphere<at_once> ways;
   for (std::size_t first = 0; first < from.size(); first += at_once) {
     const std::size_t n = std::min(at_once, from.size() - first);
     for (std::size_t k = 0; k < n; ++k) __builtin_prefetch(&senders_[static_cast<std::size_t>(from[first + k])]);
     for (std::size_t k = 0; k < n; ++k) {
-      const auto numbers = u.subspan(4 * (first + k), 4);
-      rays[k] = ray_from(point_on(from[first + k], numbers), numbers.subspan(2));
+      const auto at = static_cast<Index>(k);
+      ways.u[at] = u[4 * (first + k) + 2], ways.v[at] = u[4 * (first + k) + 3];
+    }
+    ways.find();
+    for (std::size_t k = 0; k < n; ++k) {
+      const Sender& sender = senders_[static_cast<std::size_t>(from[first + k])];
+      rays[k] = {sender.map(u[4 * (first + k)], u[4 * (first + k) + 1]),
+                 sender.frame.to_world(ways[static_cast<Index>(k)]), sender.frame.n};
     }
     rays_.closest_each(std::span(rays).first(n), hits);
     locate_(std::span(hits).first(n), arrived.subspan(first, n));

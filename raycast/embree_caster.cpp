@@ -108,18 +108,20 @@ class EmbreeCaster final : public RayCaster {
     return hit_of(query, ray);
   }
 
-  /// By loops of one step each, so that processors compute several rays' steps at once.
+  /// Eight at a time, which Embree is quicker at than one by one even where they go anywhere.
   void closest_each(std::span<const Ray> rays, std::span<std::optional<scene::SurfacePoint>> hits) const override {
     if (hits.size() < rays.size()) throw core::PreconditionError("closest_each: one answer per ray expected");
-    constexpr std::size_t at_once = 64;
-    std::array<RTCRayHit, at_once> queries;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    for (std::size_t first = 0; first < rays.size(); first += at_once) {
-      const std::size_t n = std::min(at_once, rays.size() - first);
-      for (std::size_t k = 0; k < n; ++k) queries[k] = query_from(rays[first + k]);
-      for (std::size_t k = 0; k < n; ++k) rtcIntersect1(bvh_.get(), &context, &queries[k]);
-      for (std::size_t k = 0; k < n; ++k) hits[first + k] = hit_of(queries[k], rays[first + k]);
+    RTCRayHit8 query;
+    alignas(32) std::array<int, lanes> valid;
+    valid.fill(-1);
+    for (std::size_t first = 0; first < rays.size(); first += lanes) {
+      const std::size_t used = std::min(lanes, rays.size() - first);
+      for (std::size_t lane = 0; lane < used; ++lane) set_lane(query, lane, rays[first + lane]);
+      for (std::size_t lane = used; lane < lanes; ++lane) valid[lane] = 0, set_lane(query, lane, rays[first]);
+      rtcIntersect8(valid.data(), bvh_.get(), &context, &query);
+      for (std::size_t lane = 0; lane < used; ++lane) hits[first + lane] = hit_of(query.hit, lane, rays[first + lane]);
     }
   }
 
@@ -153,7 +155,6 @@ class EmbreeCaster final : public RayCaster {
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     RTCRay8 query;
-    for (std::size_t lane = 0; lane < lanes; ++lane) query.tnear[lane] = query.time[lane] = 0;
     alignas(32) std::array<int, lanes> valid;
     valid.fill(-1);
     for (std::size_t first = 0; first < segments.size(); first += lanes) {
@@ -184,15 +185,31 @@ class EmbreeCaster final : public RayCaster {
     return surface_point(facets_[hit.primID], hit.primID, ray.direction, hit.u, hit.v);
   }
 
+  std::optional<scene::SurfacePoint> hit_of(const RTCHit8& hit, std::size_t lane, const Ray& ray) const {
+    if (hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const unsigned facet = hit.primID[lane];
+    return surface_point(facets_[facet], facet, ray.direction, hit.u[lane], hit.v[lane]);
+  }
+
+  void set_lane(RTCRayHit8& query, std::size_t lane, const Ray& ray) const {
+    set_lane(query.ray, lane, to_unit_(ray.origin, ray.leaves), ray.direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID[lane] = query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+  }
+
   void set_lane(RTCRay8& query, std::size_t lane, const Segment& segment) const {
     const Vec3 from = to_unit_(segment.from, segment.from_normal), to = to_unit_(segment.to, segment.to_normal);
-    query.org_x[lane] = static_cast<float>(from.x());
-    query.org_y[lane] = static_cast<float>(from.y());
-    query.org_z[lane] = static_cast<float>(from.z());
-    query.dir_x[lane] = static_cast<float>(to.x() - from.x());
-    query.dir_y[lane] = static_cast<float>(to.y() - from.y());
-    query.dir_z[lane] = static_cast<float>(to.z() - from.z());
-    query.tfar[lane] = 1.0F;
+    set_lane(query, lane, from, to - from, 1.0F);
+  }
+
+  static void set_lane(RTCRay8& query, std::size_t lane, const Vec3& origin, const Vec3& direction, float tfar) {
+    query.org_x[lane] = static_cast<float>(origin.x());
+    query.org_y[lane] = static_cast<float>(origin.y());
+    query.org_z[lane] = static_cast<float>(origin.z());
+    query.dir_x[lane] = static_cast<float>(direction.x());
+    query.dir_y[lane] = static_cast<float>(direction.y());
+    query.dir_z[lane] = static_cast<float>(direction.z());
+    query.tnear[lane] = query.time[lane] = 0;
+    query.tfar[lane] = tfar;
     query.mask[lane] = every_mask;
     query.id[lane] = query.flags[lane] = 0;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
 #include "solvers/potential.h"
 #include "solvers/power_transfer.h"
 #include "solvers/sampled_rounds.h"
@@ -89,10 +90,10 @@ class Pilot {
     const auto scored = [&](Index i, const ElementWalks::ConstRow&, Index hit) {
       if (hit == i) returns_(i) += system_.R.reflectance().row(i).mean() / static_cast<double>(walks_each);
     };
-    WalkBatch batch([&](std::span<const WalkStart> starts) { return walks.gather(starts, scored); });
+    const WalkNumbers numbers{*sequence_, seed, 0, 0};
+    WalkBatch batch([&](std::span<const WalkStart> starts) { return walks.gather(starts, numbers, scored); });
     for (Index i = 0; i < system_.e.rows(); ++i)
-      for (std::uint64_t k = 0; k < walks_each; ++k)
-        batch.add({i, {*sequence_, k, {seed, static_cast<std::uint32_t>(k), static_cast<std::uint64_t>(i)}, 0}});
+      for (std::uint64_t k = 0; k < walks_each; ++k) batch.add({i, WalkSequences::walk(k, i)});
     draws_ += batch.finish();
   }
 
@@ -117,18 +118,17 @@ class Combined {
         shot_(ColumnMatrix::Zero(plan.shooting.rows(), plan.shooting.cols())),
         gathered_(shot_) {}
 
-  template <class Numbers>
-  std::uint64_t add(std::uint64_t begin, std::uint64_t end, const Numbers& numbers, const RoundStop& stop) {
-    WalkBatch shooting([&](std::span<const WalkStart> starts) { return walks_.shoot(starts, shot_); });
+  std::uint64_t add(std::uint64_t begin, std::uint64_t end, const WalkNumbers& numbers, const RoundStop& stop) {
+    WalkBatch shooting([&](std::span<const WalkStart> starts) { return walks_.shoot(starts, numbers, shot_); });
     for (std::uint64_t k = begin; k < end; ++k) {
       stop.here(k);
-      shooting.add({0, numbers(k, 0)});
+      shooting.add({0, WalkSequences::walk(k)});
     }
-    WalkBatch gathering([&](std::span<const WalkStart> starts) { return walks_.gather(starts, gathered_); });
+    WalkBatch gathering([&](std::span<const WalkStart> starts) { return walks_.gather(starts, numbers, gathered_); });
     for (Index i = 0; i < shot_.rows(); ++i)
       for (std::uint64_t k = gathers(i, begin); k < gathers(i, end); ++k) {
         stop.here(k);
-        gathering.add({i, numbers(k, i + 1)});
+        gathering.add({i, WalkSequences::walk(k, i + 1)});
       }
     return shooting.finish() + gathering.finish();
   }
@@ -198,8 +198,7 @@ SolverReport CombinedWalks::advance(const System& system, SolverState& state, co
   std::vector<Combined> combined(static_cast<std::size_t>(settings_.replications), Combined(walks, plan));
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
     Combined& of_one = combined[static_cast<std::size_t>(r)];
-    const std::uint64_t draws = of_one.add(
-        begin, end, [&](std::uint64_t k, Index unknown) { return numbers(r, k, unknown); }, stop);
+    const std::uint64_t draws = of_one.add(begin, end, numbers(r), stop);
     sum = static_cast<double>(end) * of_one.mean(end);
     return draws + (r == 0 && begin == 0 ? pilot.draws() : 0);
   };

@@ -2,41 +2,52 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "core/random.h"
 #include "solvers/potential.h"
 
 namespace interflect::solvers {
 
-ElementWalks::Wave::Wave(std::span<const WalkStart> starts, Index columns)
-    : carried(static_cast<Index>(starts.size()), columns) {
+ElementWalks::Wave::Wave(std::span<const WalkStart> starts, const WalkNumbers& numbers, Index columns)
+    : carried(static_cast<Index>(starts.size()), columns), numbers_(numbers), first_(starts.size() * numbers.first) {
   for (const WalkStart& each : starts) {
     start.push_back(each.unknown);
-    numbers.push_back(each.numbers);
+    walk_.push_back(each.walk);
   }
   at = start;
+  numbers_.sequence.points_of(walk_, numbers_.first, first_);
 }
 
 void ElementWalks::Wave::keep(std::size_t from, std::size_t to) {
-  start[to] = start[from], at[to] = at[from], numbers[to] = numbers[from];
+  start[to] = start[from], at[to] = at[from], walk_[to] = walk_[from];
   if (!point.empty()) point[to] = point[from];
 }
 
 void ElementWalks::Wave::shrink(std::size_t size) {
+  if (size < walk_.size()) numbers_.used = numbers_.first;
   const auto cut = [size](auto& of_each) {
     of_each.erase(of_each.begin() + static_cast<std::ptrdiff_t>(size), of_each.end());
   };
-  cut(start), cut(at), cut(numbers);
+  cut(start), cut(at), cut(walk_);
   if (!point.empty()) cut(point);
+}
+
+void ElementWalks::Wave::draw(std::size_t count, std::vector<double>& u) {
+  u.resize(size() * count);
+  if (numbers_.used + count > numbers_.first) {
+    core::random_numbers(numbers_.seed, numbers_.stream, walk_, drawn_, count, u);
+    drawn_ += count;
+    return;
+  }
+  for (std::size_t k = 0; k < size(); ++k)
+    std::copy_n(&first_[k * numbers_.first + numbers_.used], count, &u[k * count]);
+  numbers_.used += count;
 }
 
 ElementWalks::ElementWalks(const System& system, Score score)
     : system_(system),
       score_(score),
       births_(power_of(system.K.gram(), system.e)),
-      draw_(static_cast<std::size_t>(system.walks->dimensions())) {
-  if (1 + first_numbers() > WalkNumbers::most)
-    throw core::PreconditionError("random walks: a draw takes more numbers than are kept");
-}
+      draw_(static_cast<std::size_t>(system.walks->dimensions())) {}
 
 void ElementWalks::prefer_sources(const ColumnMatrix& worth) {
   const ColumnMatrix power = power_of(system_.K.gram(), system_.e);
@@ -52,19 +63,22 @@ void ElementWalks::prefer_ways(const ColumnMatrix& worth) {
       worth_.col(c) /= births_.sizes()(c) * static_cast<double>((births_.sizes().array() > 0).count());
 }
 
-double ElementWalks::going_on(Index at, const ConstRow& carried, const ConstRow& reflected) const {
-  const double all = carried.cwiseAbs().sum();
-  if (!(all > 0)) return 0;
-  const double by_rho = reflected.cwiseAbs().sum() / all;
+/// @param carried, reflected  sums over the columns, without signs
+double ElementWalks::going_on(Index at, double carried, double reflected, const double* by_column) const {
+  if (!(carried > 0)) return 0;
+  const double by_rho = reflected / carried;
   if (worth_.size() == 0) return by_rho;
-  return std::clamp(reflected.cwiseAbs().dot(worth_.row(at)), .1 * by_rho, 1.0);
+  double worth = 0;
+  for (Index c = 0; c < worth_.cols(); ++c) worth += std::abs(by_column[c]) * worth_(at, c);
+  return std::clamp(worth, .1 * by_rho, 1.0);
 }
 
 template <class Step, class Hit>
 std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) const {
   std::uint64_t draws = 0;
+  const Index columns = wave.carried.cols();
   std::vector<Index> arrived(wave.size());
-  Row reflected(wave.carried.cols());
+  std::vector<double> reflected(static_cast<std::size_t>(columns));
   while (wave.size() > 0) {
     step(wave, std::span(arrived).first(wave.size()));
     draws += wave.size();
@@ -72,10 +86,15 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
     for (std::size_t k = 0; k < wave.size(); ++k) {
       const Index at = arrived[k];
       if (at == TransitionSampler::nowhere) continue;
-      const auto carried = wave.carried.row(static_cast<Index>(k));
-      reflected = rho(at).cwiseProduct(carried);
-      const double on = going_on(at, carried, reflected);
-      const bool survives = wave.numbers[k].next(1)[0] < on;
+      const double *carried = &wave.carried(static_cast<Index>(k), 0), *rho = &system_.R.reflectance()(at, 0);
+      double all = 0, left = 0;
+      for (Index c = 0; c < columns; ++c) {
+        const double value = rho[c] * carried[c];
+        reflected[static_cast<std::size_t>(c)] = value;
+        all += std::abs(carried[c]), left += std::abs(value);
+      }
+      const double on = going_on(at, all, left, reflected.data());
+      const bool survives = wave.on[k] < on;
       if (score_ == Score::collision)
         hit(wave.start[k], at, carried, 1);
       else if (survives == (score_ == Score::survival))
@@ -83,7 +102,8 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
       if (!survives) continue;
       wave.at[k] = at;
       wave.keep(k, kept);
-      wave.carried.row(static_cast<Index>(kept++)) = reflected / on;
+      double* next = &wave.carried(static_cast<Index>(kept++), 0);
+      for (Index c = 0; c < columns; ++c) next[c] = reflected[static_cast<std::size_t>(c)] / on;
     }
     wave.shrink(kept);
   }
@@ -91,27 +111,37 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
 }
 
 void ElementWalks::step_between_elements(Wave& wave, std::span<Index> arrived) const {
-  std::vector<double> u(wave.size() * draw_);
-  for (std::size_t k = 0; k < wave.size(); ++k) std::ranges::copy(wave.numbers[k].next(draw_), &u[k * draw_]);
-  system_.walks->from_elements(wave.at, u, arrived);
+  std::vector<double>& ways = wave.ways;
+  wave.draw(draw_ + 1, ways);
+  wave.on.resize(wave.size());
+  for (std::size_t k = 0; k < wave.size(); ++k) {
+    wave.on[k] = ways[k * (draw_ + 1) + draw_];
+    std::copy_n(&ways[k * (draw_ + 1)], draw_, &ways[k * draw_]);
+  }
+  system_.walks->from_elements(wave.at, std::span(ways).first(wave.size() * draw_), arrived);
 }
 
 void ElementWalks::step_between_points(Wave& wave, std::span<Index> arrived) const {
   const PointTransitions& points = *system_.walks->points();
-  if (wave.point.empty())
+  if (wave.point.empty()) {
+    wave.draw(2, wave.ways);
     for (std::size_t k = 0; k < wave.size(); ++k)
-      wave.point.push_back(points.point_on(wave.at[k], wave.numbers[k].next(2)));
+      wave.point.push_back(points.point_on(wave.at[k], std::span(wave.ways).subspan(2 * k, 2)));
+  }
+  wave.draw(2, wave.ways);
+  wave.draw(1, wave.on);
   for (std::size_t k = 0; k < wave.size(); ++k) {
-    const auto next = points.from_point(wave.point[k], wave.numbers[k].next(2));
+    const auto next = points.from_point(wave.point[k], std::span(wave.ways).subspan(2 * k, 2));
     arrived[k] = next ? next->element : TransitionSampler::nowhere;
     if (next) wave.point[k] = *next;
   }
 }
 
-ElementWalks::Wave ElementWalks::births(std::span<const WalkStart> starts) const {
-  Wave wave(starts, system_.e.cols());
+ElementWalks::Wave ElementWalks::births(std::span<const WalkStart> starts, const WalkNumbers& numbers) const {
+  Wave wave(starts, numbers, system_.e.cols());
+  wave.draw(1, wave.ways);
   for (std::size_t k = 0; k < wave.size(); ++k) {
-    const auto [source, probability] = births_(wave.numbers[k].next(1)[0]);
+    const auto [source, probability] = births_(wave.ways[k]);
     wave.at[k] = source;
     wave.carried.row(static_cast<Index>(k)) = system_.e.row(source) * (area(source) / probability);
   }
@@ -120,35 +150,55 @@ ElementWalks::Wave ElementWalks::births(std::span<const WalkStart> starts) const
 
 template <class Step>
 std::uint64_t ElementWalks::shoot_by(const Step& step, Wave wave, ColumnMatrix& sum) const {
-  return walk(std::move(wave), step, [&](Index, Index i, const auto& carried, double score) {
-    sum.row(i) += score / area(i) * rho(i).cwiseProduct(carried);
+  const Index columns = sum.cols();
+  return walk(std::move(wave), step, [&](Index, Index i, const double* carried, double score) {
+    const double* rho = &system_.R.reflectance()(i, 0);
+    double* to = &sum(i, 0);
+    const double share = score / area(i);
+    for (Index c = 0; c < columns; ++c) to[c] += share * rho[c] * carried[c];
   });
 }
 
-std::uint64_t ElementWalks::shoot(std::span<const WalkStart> starts, ColumnMatrix& sum) const {
+std::uint64_t ElementWalks::shoot(std::span<const WalkStart> starts, const WalkNumbers& numbers,
+                                  ColumnMatrix& sum) const {
   return shoot_by([this](Wave& wave, std::span<Index> arrived) { step_between_elements(wave, arrived); },
-                  births(starts), sum);
+                  births(starts, numbers), sum);
 }
 
-std::uint64_t ElementWalks::shoot_on(std::span<const WalkStart> starts, ColumnMatrix& sum) const {
-  return shoot_by([this](Wave& wave, std::span<Index> arrived) { step_between_points(wave, arrived); }, births(starts),
-                  sum);
+std::uint64_t ElementWalks::shoot_on(std::span<const WalkStart> starts, const WalkNumbers& numbers,
+                                     ColumnMatrix& sum) const {
+  return shoot_by([this](Wave& wave, std::span<Index> arrived) { step_between_points(wave, arrived); },
+                  births(starts, numbers), sum);
 }
 
-std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const Scored& scored) const {
-  Wave wave(starts, system_.e.cols());
+/// hit(start, at, carried, score), carried with the reflectance at the start.
+template <class Hit>
+std::uint64_t ElementWalks::gather_by(std::span<const WalkStart> starts, const WalkNumbers& numbers,
+                                      const Hit& hit) const {
+  Wave wave(starts, numbers, system_.e.cols());
   for (std::size_t k = 0; k < wave.size(); ++k) wave.carried.row(static_cast<Index>(k)) = rho(wave.at[k]);
-  Row of_one(system_.e.cols());
   return walk(
       std::move(wave), [this](Wave& under_way, std::span<Index> arrived) { step_between_elements(under_way, arrived); },
-      [&](Index start, Index at, const auto& carried, double score) {
-        of_one = score * carried.cwiseProduct(system_.e.row(at));
-        scored(start, of_one, at);
-      });
+      hit);
 }
 
-std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, ColumnMatrix& sum) const {
-  return gather(starts, [&](Index start, const ConstRow& score, Index) { sum.row(start) += score; });
+std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const WalkNumbers& numbers,
+                                   const Scored& scored) const {
+  Row of_one(system_.e.cols());
+  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, double score) {
+    for (Index c = 0; c < of_one.size(); ++c) of_one(c) = score * carried[c] * system_.e(at, c);
+    scored(start, of_one, at);
+  });
+}
+
+std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const WalkNumbers& numbers,
+                                   ColumnMatrix& sum) const {
+  const Index columns = sum.cols();
+  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, double score) {
+    const double* e = system_.e.data() + at * system_.e.outerStride();
+    double* to = &sum(start, 0);
+    for (Index c = 0; c < columns; ++c) to[c] += score * carried[c] * e[c];
+  });
 }
 
 }  // namespace interflect::solvers

@@ -13,8 +13,8 @@ namespace interflect::solvers {
 
 /// A walk that is to be.
 struct WalkStart {
-  Index unknown;  ///< where it starts, if it gathers; those that shoot draw that
-  WalkNumbers numbers;
+  Index unknown;       ///< where it starts, if it gathers; those that shoot draw that
+  std::uint64_t walk;  ///< whose numbers it has
 };
 
 /// Collects walks and hands them over some hundreds at a time, as they are fastest.
@@ -34,7 +34,7 @@ class WalkBatch {
   }
 
  private:
-  static constexpr std::size_t at_once = 256;
+  static constexpr std::size_t at_once = 512;
   std::function<std::uint64_t(std::span<const WalkStart>)> walk_;
   std::vector<WalkStart> starts_;
   std::uint64_t draws_ = 0;
@@ -65,41 +65,51 @@ class ElementWalks {
   std::size_t first_numbers() const { return 2 + draw_; }
 
   /// What walks say of every unknown's radiosity beyond e is added to its row.  @return  draws
-  std::uint64_t shoot(std::span<const WalkStart> starts, ColumnMatrix& sum) const;
+  std::uint64_t shoot(std::span<const WalkStart> starts, const WalkNumbers& numbers, ColumnMatrix& sum) const;
   /// The same of walks that go on from the very point where they arrived, which the system's must have.
-  std::uint64_t shoot_on(std::span<const WalkStart> starts, ColumnMatrix& sum) const;
+  std::uint64_t shoot_on(std::span<const WalkStart> starts, const WalkNumbers& numbers, ColumnMatrix& sum) const;
   /// From where they start, and of that.
-  std::uint64_t gather(std::span<const WalkStart> starts, ColumnMatrix& sum) const;
-  std::uint64_t gather(std::span<const WalkStart> starts, const Scored& scored) const;
+  std::uint64_t gather(std::span<const WalkStart> starts, const WalkNumbers& numbers, ColumnMatrix& sum) const;
+  std::uint64_t gather(std::span<const WalkStart> starts, const WalkNumbers& numbers, const Scored& scored) const;
 
  private:
-  /// Walks under way.
+  /// Walks under way, which have taken as many steps.
   struct Wave {
-    explicit Wave(std::span<const WalkStart> starts, Index columns);
+    Wave(std::span<const WalkStart> starts, const WalkNumbers& numbers, Index columns);
     std::size_t size() const { return at.size(); }
     void keep(std::size_t from, std::size_t to);  ///< but for what it carries
     void shrink(std::size_t size);
+    /// The next numbers of each, `count` a walk.
+    void draw(std::size_t count, std::vector<double>& u);
 
     std::vector<Index> start, at;
-    std::vector<WalkNumbers> numbers;
     ColumnMatrix carried;                        ///< rows beyond size() are of walks that ended
     std::vector<PointTransitions::Point> point;  ///< of those that go on from there
+    std::vector<double> ways, on;                ///< numbers of a step, and of whether to go on
+
+   private:
+    WalkNumbers numbers_;
+    std::vector<std::uint64_t> walk_;
+    std::vector<double> first_;  ///< numbers of all that started: no longer used when one of them has ended
+    std::size_t drawn_ = 0;      ///< of the others, by each
   };
 
   double area(Index a) const { return system_.K.gram()[static_cast<std::size_t>(a)]; }
   auto rho(Index a) const { return system_.R.reflectance().row(a); }
-  double going_on(Index at, const ConstRow& carried, const ConstRow& reflected) const;
+  double going_on(Index at, double carried, double reflected, const double* by_column) const;
 
-  Wave births(std::span<const WalkStart> starts) const;
+  Wave births(std::span<const WalkStart> starts, const WalkNumbers& numbers) const;
   void step_between_elements(Wave& wave, std::span<Index> arrived) const;
   void step_between_points(Wave& wave, std::span<Index> arrived) const;
 
   /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, score) is told where
-  /// one scores, score having the mean 1.
+  /// one scores and of the columns that it carries, score having the mean 1.
   template <class Step, class Hit>
   std::uint64_t walk(Wave wave, const Step& step, const Hit& hit) const;
   template <class Step>
   std::uint64_t shoot_by(const Step& step, Wave wave, ColumnMatrix& sum) const;
+  template <class Hit>
+  std::uint64_t gather_by(std::span<const WalkStart> starts, const WalkNumbers& numbers, const Hit& hit) const;
 
   const System& system_;
   Score score_;

@@ -7,7 +7,7 @@
 namespace interflect::solvers {
 
 PowerDraw::PowerDraw(const ColumnMatrix& power)
-    : sizes_(column_sizes(power)), cumulative_(static_cast<std::size_t>(power.rows())), guide_(cumulative_.size()) {
+    : sizes_(column_sizes(power)), cumulative_(static_cast<std::size_t>(power.rows())), guide_(cumulative_.size() + 2) {
   const Eigen::RowVectorXd weight = (sizes_.array() > 0).select(sizes_.cwiseInverse(), 0);
   double sum = 0;
   const double* entry = power.data();
@@ -16,18 +16,23 @@ PowerDraw::PowerDraw(const ColumnMatrix& power)
     for (Index c = 0; c < weight.size(); ++c) share += weight(c) * std::abs(*entry++);
     cumulative = sum += share;
   }
-  const std::size_t n = cumulative_.size();
-  const double part = sum / static_cast<double>(n);
-  for (std::size_t k = 0, a = 0; k < n; ++k) {
-    while (a + 1 < n && cumulative_[a] <= part * static_cast<double>(k)) ++a;
-    guide_[k] = static_cast<std::uint32_t>(a);
-  }
+  if (sum > 0) make_guide();
+}
+
+/// guide[k] = how many unknowns end before part k begins, whatever rounds: counted where they end, and added up.  A pass
+/// without branches, since there may be no more draws than unknowns.
+void PowerDraw::make_guide() {
+  constexpr double whatever_rounds = 1 + 1e-12;  // what ends at the last part's end still counts at last + 1
+  const double parts = static_cast<double>(cumulative_.size()) / cumulative_.back() * whatever_rounds;
+  for (const double end : cumulative_) ++guide_[1 + static_cast<std::size_t>(end * parts)];
+  std::uint32_t before = 0;
+  for (std::uint32_t& of_part : guide_) of_part = before += of_part;
 }
 
 PowerDraw::Drawn PowerDraw::operator()(double u) const {
   const std::size_t n = cumulative_.size();
   const double all = cumulative_.back();
-  std::size_t a = guide_[std::min(n - 1, static_cast<std::size_t>(u * static_cast<double>(n)))];
+  std::size_t a = guide_[static_cast<std::size_t>(u * static_cast<double>(n))];
   while (a + 1 < n && cumulative_[a] <= u * all) ++a;
   while (a > 0 && !(cumulative_[a] > cumulative_[a - 1])) --a;  // by rounding, past all that sends anything
   return {static_cast<Index>(a), probability(static_cast<Index>(a))};

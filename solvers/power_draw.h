@@ -32,6 +32,8 @@ class PowerDraw {
   const Eigen::RowVectorXd& sizes() const { return sizes_; }  ///< sum |power| of each column
 
  private:
+  void make_guide();
+
   Eigen::RowVectorXd sizes_;
   std::vector<double> cumulative_;
   std::vector<std::uint32_t> guide_;  ///< where to begin looking, by u in as many equal parts as there are unknowns

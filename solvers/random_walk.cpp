@@ -1,6 +1,7 @@
 #include "solvers/random_walk.h"
 
 #include "core/error.h"
+#include "core/random.h"
 #include "solvers/sampled_rounds.h"
 #include "solvers/system_check.h"
 
@@ -32,24 +33,24 @@ SolverReport RandomWalk::advance(const System& system, SolverState& state, const
 
   const ElementWalks walks(system, score_);
   const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), walks.first_numbers());
-  const auto some = [&](std::span<const WalkStart> starts, ColumnMatrix& sum) {
+  const auto some = [&](std::span<const WalkStart> starts, const WalkNumbers& of_walks, ColumnMatrix& sum) {
     switch (way_) {
       case Way::shooting:
-        return walks.shoot(starts, sum);
+        return walks.shoot(starts, of_walks, sum);
       case Way::continuous:
-        return walks.shoot_on(starts, sum);
+        return walks.shoot_on(starts, of_walks, sum);
       case Way::gathering:
         break;
     }
-    return walks.gather(starts, sum);
+    return walks.gather(starts, of_walks, sum);
   };
   const Index starts = way_ == Way::gathering ? system.e.rows() : 1;
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
-    WalkBatch batch([&](std::span<const WalkStart> of_batch) { return some(of_batch, sum); });
+    WalkBatch batch([&](std::span<const WalkStart> of_batch) { return some(of_batch, numbers(r), sum); });
     for (std::uint64_t k = begin; k < end; ++k)
       for (Index i = 0; i < starts; ++i) {
         stop.here(k + static_cast<std::uint64_t>(i));
-        batch.add({i, numbers(r, k, i)});
+        batch.add({i, WalkSequences::walk(k, i)});
       }
     return batch.finish();
   };

@@ -1,5 +1,6 @@
 #include "solvers/target_walk.h"
 
+#include "core/random.h"
 #include "solvers/potential.h"
 #include "solvers/sampled_rounds.h"
 #include "solvers/system_check.h"
@@ -31,10 +32,10 @@ SolverReport TargetWalk::shoot(const System& system, SolverState& state, const S
   ElementWalks walks(system, ElementWalks::Score::collision);
   const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), walks.first_numbers());
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
-    WalkBatch batch([&](std::span<const WalkStart> starts) { return walks.shoot(starts, sum); });
+    WalkBatch batch([&](std::span<const WalkStart> starts) { return walks.shoot(starts, numbers(r), sum); });
     for (std::uint64_t k = begin; k < end; ++k) {
       stop.here(k);
-      batch.add({0, numbers(r, k)});
+      batch.add({0, WalkSequences::walk(k)});
     }
     return batch.finish();
   };
@@ -55,17 +56,18 @@ SolverReport TargetWalk::gather(const System& system, SolverState& state, const 
   const ElementWalks walks(system, ElementWalks::Score::collision);
   const Eigen::Map<const Eigen::VectorXd> t(system.target.data(), system.e.rows());
   const PowerDraw starts(t.asDiagonal() * system.R.reflectance());
-  const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), 1 + walks.first_numbers());
+  const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), 1 + walks.first_numbers(), 1);
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {
     const auto scored = [&](Index i, const ElementWalks::ConstRow& score, Index) {
       sum.row(i) += score / starts.probability(i);
     };
-    WalkBatch batch([&](std::span<const WalkStart> of_batch) { return walks.gather(of_batch, scored); });
+    const WalkNumbers of_walks = numbers(r);
+    WalkBatch batch([&](std::span<const WalkStart> of_batch) { return walks.gather(of_batch, of_walks, scored); });
     for (std::uint64_t k = begin; k < end && !starts.nothing(); ++k) {
       stop.here(k);
-      WalkNumbers of_walk = numbers(r, k);
-      const Index i = starts(of_walk.next(1)[0]).unknown;
-      batch.add({i, of_walk});
+      double first = 0;
+      of_walks.sequence.point(WalkSequences::walk(k), {&first, 1});
+      batch.add({starts(first).unknown, WalkSequences::walk(k)});
     }
     return batch.finish();
   };

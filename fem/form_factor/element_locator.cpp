@@ -44,27 +44,39 @@ ElementLocator::ElementLocator(std::span<const scene::SurfacePatch> patches) : m
   }
 }
 
-ElementLocator::Candidates ElementLocator::candidates(const scene::SurfacePoint& point) const {
+ElementLocator::Guess ElementLocator::guess(const scene::SurfacePoint& point) const {
   const std::size_t at = slot(point.surface, point.side);
   if (at >= part_of_.size() || part_of_[at] < 0) return {};
   const Part& part = parts_[static_cast<std::size_t>(part_of_[at])];
-  return {&part, part.grid.near(point.position), part.outlines.at(point.position)};
+  if (!part.outlines.flat()) return {&part};
+  const Eigen::Vector2f x = part.outlines.at(point.position);
+  return {&part, part.outlines.likely(x), x};
 }
 
-Index ElementLocator::among(const Candidates& candidates, const scene::SurfacePoint& point) const {
-  if (candidates.part == nullptr) return none;
-  if (candidates.part->outlines.flat())
-    for (const std::uint32_t item : candidates.items)
-      if (candidates.part->outlines.surely_holds(item, candidates.in_plane)) return candidates.part->first + item;
-  return nearest_among(candidates, point);
+Index ElementLocator::by(const Guess& guess, const scene::SurfacePoint& point) const {
+  if (guess.part == nullptr) return none;
+  for (const std::uint32_t item : guess.items)
+    if (item != PlaneOutlines::none && guess.part->outlines.surely_holds(item, guess.in_plane))
+      return guess.part->first + item;
+  return among_near(guess, point);
+}
+
+Index ElementLocator::among_near(const Guess& guess, const scene::SurfacePoint& point) const {
+  const Part& part = *guess.part;
+  const std::span<const std::uint32_t> items = part.grid.near(point.position);
+  if (part.outlines.flat())
+    for (const std::uint32_t item : items)
+      if (part.outlines.surely_holds(item, guess.in_plane)) return part.first + item;
+  return nearest_among(part, items, point);
 }
 
 /// In double precision, and of several that hold it the one in whose plane it lies.
-Index ElementLocator::nearest_among(const Candidates& candidates, const scene::SurfacePoint& point) const {
+Index ElementLocator::nearest_among(const Part& part, std::span<const std::uint32_t> items,
+                                    const scene::SurfacePoint& point) const {
   Index found = none;
   double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t item : candidates.items) {
-    const Index element = candidates.part->first + item;
+  for (const std::uint32_t item : items) {
+    const Index element = part.first + item;
     const Outline& o = outlines_[static_cast<std::size_t>(element)];
     const Vec3 d = point.position - o.corner;
     const double inside = o.inside(d), height = std::abs(o.normal.dot(d));
@@ -77,18 +89,19 @@ Index ElementLocator::nearest_among(const Candidates& candidates, const scene::S
   return nearest ? static_cast<Index>(nearest->element.value) : none;
 }
 
-Index ElementLocator::operator()(const scene::SurfacePoint& point) const { return among(candidates(point), point); }
+Index ElementLocator::operator()(const scene::SurfacePoint& point) const { return by(guess(point), point); }
 
 void ElementLocator::operator()(std::span<const std::optional<scene::SurfacePoint>> points,
                                 std::span<Index> elements) const {
   constexpr std::size_t at_once = 64;
-  std::array<Candidates, at_once> of;
+  std::array<Guess, at_once> of;
   for (std::size_t first = 0; first < points.size(); first += at_once) {
     const auto some = points.subspan(first, std::min(at_once, points.size() - first));
-    for (std::size_t k = 0; k < some.size(); ++k) of[k] = some[k] ? candidates(*some[k]) : Candidates{};
-    for (std::size_t k = 0; k < some.size(); ++k)
-      if (!of[k].items.empty() && of[k].part->outlines.flat()) of[k].part->outlines.prefetch(of[k].items[0]);
-    for (std::size_t k = 0; k < some.size(); ++k) elements[first + k] = some[k] ? among(of[k], *some[k]) : none;
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      of[k] = some[k] ? guess(*some[k]) : Guess{};
+      if (of[k].items[0] != PlaneOutlines::none) of[k].part->outlines.prefetch(of[k].items[0]);
+    }
+    for (std::size_t k = 0; k < some.size(); ++k) elements[first + k] = some[k] ? by(of[k], *some[k]) : none;
   }
 }
 

@@ -36,10 +36,10 @@ class ElementLocator {
     geometry::BoxGrid grid;
     PlaneOutlines outlines;
   };
-  /// Elements that may hold a point, likely ones first: items of a part's grid.
-  struct Candidates {
-    const Part* part = nullptr;  ///< null: none
-    std::span<const std::uint32_t> items{};
+  /// The elements that likely hold a point, where that can be told in the plane of all.
+  struct Guess {
+    const Part* part = nullptr;  ///< null: the side has no elements
+    PlaneOutlines::Likely items{PlaneOutlines::none, PlaneOutlines::none};
     Eigen::Vector2f in_plane = Eigen::Vector2f::Zero();
   };
   /// The planes through an element and, across it, through its edges.
@@ -58,9 +58,10 @@ class ElementLocator {
     }
   };
   static Outline outline_of(const scene::SurfacePatch& patch);
-  Candidates candidates(const scene::SurfacePoint& point) const;
-  Index among(const Candidates& candidates, const scene::SurfacePoint& point) const;
-  Index nearest_among(const Candidates& candidates, const scene::SurfacePoint& point) const;
+  Guess guess(const scene::SurfacePoint& point) const;
+  Index by(const Guess& guess, const scene::SurfacePoint& point) const;
+  Index among_near(const Guess& guess, const scene::SurfacePoint& point) const;
+  Index nearest_among(const Part& part, std::span<const std::uint32_t> items, const scene::SurfacePoint& point) const;
 
   mesh::ElementMesh mesh_;
   std::vector<Outline> outlines_;

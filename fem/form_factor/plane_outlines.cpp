@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/hemisphere.h"
 #include "geometry/box.h"
@@ -36,6 +37,48 @@ PlaneOutlines::PlaneOutlines(std::span<const scene::SurfacePatch> patches) {
     if (!(patch.normal().dot(frame.n) > 0)) return;
   }
   outlines_ = std::move(outlines);
+  spread_cells(patches);
+}
+
+void PlaneOutlines::spread_cells(std::span<const scene::SurfacePatch> patches) {
+  std::vector<Eigen::AlignedBox2f> boxes;
+  Eigen::AlignedBox2f all;
+  Eigen::Array2f mean = Eigen::Array2f::Zero();
+  for (const scene::SurfacePatch& patch : patches) {
+    Eigen::AlignedBox2f& box = boxes.emplace_back();
+    for (const Vec3& x : patch.ring()) box.extend(at(x));
+    all.extend(box);
+    mean += box.sizes().array() / static_cast<float>(patches.size());
+  }
+  constexpr float along_an_element = 4, most_an_element = 64;
+  Eigen::Array2f cells = along_an_element * all.sizes().array() / mean;
+  cells *= std::min(1.0F, std::sqrt(most_an_element * static_cast<float>(boxes.size()) / cells.prod()));
+  cells = cells.round().max(1);
+  low_ = all.min(), per_length_ = cells / all.sizes().array(), last_ = cells - 1;
+  across_ = static_cast<std::size_t>(cells.x());
+  likely_.assign(across_ * static_cast<std::size_t>(cells.y()), {none, none});
+  // What holds the middle comes first, then what holds most of the rest.
+  for (const auto& [x, y] :
+       {std::pair(.5F, .5F), std::pair(.1F, .1F), std::pair(.9F, .1F), std::pair(.1F, .9F), std::pair(.9F, .9F)})
+    take_places(boxes, {x, y});
+}
+
+/// Every element takes the place that is free in cells of which it holds a point.
+/// @param in_cell  where that point is, of the cell's sides
+void PlaneOutlines::take_places(std::span<const Eigen::AlignedBox2f> boxes, const Eigen::Array2f& in_cell) {
+  for (std::uint32_t item = 0; item < boxes.size(); ++item) {
+    const Eigen::Array2f from = (boxes[item].min() - low_).array() * per_length_,
+                         to = ((boxes[item].max() - low_).array() * per_length_).min(last_);
+    for (float y = std::floor(from.y()); y <= to.y(); ++y)
+      for (float x = std::floor(from.x()); x <= to.x(); ++x) {
+        if (!surely_holds(item, low_ + ((Eigen::Array2f(x, y) + in_cell) / per_length_).matrix())) continue;
+        Likely& of_cell = likely_[static_cast<std::size_t>(y) * across_ + static_cast<std::size_t>(x)];
+        if (of_cell[0] == none)
+          of_cell[0] = item;
+        else if (of_cell[0] != item && of_cell[1] == none)
+          of_cell[1] = item;
+      }
+  }
 }
 
 }  // namespace interflect::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,9 +12,12 @@
 namespace interflect::fem {
 
 /// Elements of a plane by their edges in it, in single precision and a line of cache each: which one surely holds a
-/// point, but for points so close to an edge that this cannot be told.
+/// point, but for points so close to an edge that this cannot be told.  Cells of a grid, about four along each element,
+/// know two that likely hold their points.
 class PlaneOutlines {
  public:
+  static constexpr std::uint32_t none = ~0u;
+
   /// @param patches  that do not overlap
   explicit PlaneOutlines(std::span<const scene::SurfacePatch> patches);
 
@@ -23,6 +27,13 @@ class PlaneOutlines {
   Eigen::Vector2f at(const Vec3& x) const {
     const Vec3 d = x - origin_;
     return {static_cast<float>(s_.dot(d)), static_cast<float>(t_.dot(d))};
+  }
+  /// The two elements that most likely hold a point, the first one the middle of its cell; `none` for those that are
+  /// not there.
+  using Likely = std::array<std::uint32_t, 2>;
+  const Likely& likely(const Eigen::Vector2f& x) const {
+    const Eigen::Array2f cell = ((x - low_).array() * per_length_).max(0.0F).min(last_);
+    return likely_[static_cast<std::size_t>(cell.y()) * across_ + static_cast<std::size_t>(cell.x())];
   }
   bool surely_holds(std::uint32_t item, const Eigen::Vector2f& x) const {
     const Outline& o = outlines_[item];
@@ -37,9 +48,16 @@ class PlaneOutlines {
     Eigen::Array4f s = Eigen::Array4f::Zero(), t = s, offset = Eigen::Array4f::Constant(-1e30F);
   };
 
+  void spread_cells(std::span<const scene::SurfacePatch> patches);
+  void take_places(std::span<const Eigen::AlignedBox2f> boxes, const Eigen::Array2f& in_cell);
+
   Vec3 origin_ = Vec3::Zero(), s_ = Vec3::Zero(), t_ = Vec3::Zero();
   float margin_ = 0;  ///< of rounding [m]
   std::vector<Outline> outlines_;
+  Eigen::Vector2f low_ = Eigen::Vector2f::Zero();
+  Eigen::Array2f per_length_ = Eigen::Array2f::Zero(), last_ = per_length_;  ///< the last cell, in either direction
+  std::size_t across_ = 1;                                                   ///< cells in a row
+  std::vector<Likely> likely_;                                               ///< of cells
 };
 
 }  // namespace interflect::fem

@@ -33,8 +33,8 @@ UniformMap::UniformMap(std::span<const Vec3> ring)
   jacobian_t_ = normal.dot(twist_.cross(along_t_)) / normal.squaredNorm();
 }
 
-Vec3 UniformMap::operator()(double u, double v) const {
-  if (shape_ == Shape::parallelogram) return corner_ + u * along_s_ + v * along_t_;
+/// Of triangles, and of quads whose sides are not parallel.
+Vec3 UniformMap::bent(double u, double v) const {
   if (shape_ == Shape::triangle) {
     const double root = std::sqrt(u);
     return corner_ + root * (1 - v) * along_s_ + root * v * along_t_;

@@ -18,9 +18,13 @@ class UniformMap {
   /// @param ring  3 or 4 corners [m]
   explicit UniformMap(std::span<const Vec3> ring);
   /// @param u, v  in [0, 1]
-  Vec3 operator()(double u, double v) const;
+  Vec3 operator()(double u, double v) const {
+    return shape_ == Shape::parallelogram ? Vec3(corner_ + u * along_s_ + v * along_t_) : bent(u, v);
+  }
 
  private:
+  Vec3 bent(double u, double v) const;
+
   enum class Shape : std::uint8_t { triangle, parallelogram, quad };
   Shape shape_;
   Vec3 corner_, along_s_, along_t_, twist_ = Vec3::Zero();

@@ -101,9 +101,11 @@ void VisibilitySampler::append(Index i, Index j, Effort effort, std::uint32_t se
   w.weights.resize(used + n);
   for (std::uint32_t first = 0; first < n; first += PointLanes::count) {
     Words bits_i, bits_j;
-    for (std::uint32_t l = 0; l < PointLanes::count; l += 2) {
-      const core::RandomBlock block = core::random_block(seed_, 2 * set, pair, (first + l) / 2);
-      bits_i[l] = block[0], bits_j[l] = block[1], bits_i[l + 1] = block[2], bits_j[l + 1] = block[3];
+    static_assert(PointLanes::count == 2 * core::blocks_at_once);
+    const core::RandomBlocks words = core::random_blocks(seed_, 2 * set, pair, first / 2);
+    for (std::size_t b = 0; b < core::blocks_at_once; ++b) {
+      bits_i[2 * b] = words[0][b], bits_j[2 * b] = words[1][b];
+      bits_i[2 * b + 1] = words[2][b], bits_j[2 * b + 1] = words[3][b];
     }
     const JitteredCells in_i(cells.row + first, cells.column + first, m, 0, 0, bits_i);
     const JitteredCells in_j(cells.partner_row + first, cells.partner_column + first, m, cells.turn_rows,

@@ -77,6 +77,31 @@ TEST(Random, numbers_of_many_samples_are_those_of_each) {
     }
 }
 
+TEST(Random, blocks_at_once_are_those_of_each) {
+  for (const std::uint64_t index : {std::uint64_t{0}, std::uint64_t{5} << 32 | 7})
+    for (const std::uint32_t first : {0u, 3u, 0xFFFFFFF0u}) {
+      const RandomBlocks many = random_blocks(11, 9, index, first);
+      for (std::uint32_t b = 0; b < blocks_at_once; ++b)
+        for (std::size_t w = 0; w < 4; ++w) EXPECT_EQ(many[w][b], random_block(11, 9, index, first + b)[w]);
+    }
+}
+
+TEST(Random, numbers_of_some_samples_from_any_on_are_those_of_each) {
+  std::vector<std::uint64_t> indices;
+  for (std::uint64_t k = 0; k < 45; ++k) indices.push_back(k * k * k << 20 | k);
+  for (const std::size_t first : {0u, 1u, 2u, 7u})
+    for (const std::size_t count : {1u, 2u, 5u}) {
+      std::vector<double> u(indices.size() * count);
+      random_numbers(~std::uint64_t{3}, 0x80000001u, indices, first, count, u);
+      for (std::size_t k = 0; k < indices.size(); ++k) {
+        RandomNumbers one(~std::uint64_t{3}, 0x80000001u, indices[k]);
+        for (std::size_t d = 0; d < first; ++d) one.next();
+        for (std::size_t d = 0; d < count; ++d)
+          ASSERT_EQ(u[k * count + d], one.next()) << first << ' ' << k << ' ' << d;
+      }
+    }
+}
+
 TEST(Random, purposes_have_seeds_of_their_own) {
   EXPECT_NE(derived_seed(1, "visibility"), derived_seed(1, "pixels"));
   EXPECT_NE(derived_seed(1, "visibility"), derived_seed(2, "visibility"));

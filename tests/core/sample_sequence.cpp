@@ -57,6 +57,13 @@ TEST_P(EverySequence, has_the_same_points_one_by_one_and_many_at_once) {
       sequence->point(4090 + k, one);
       for (std::size_t d = 0; d < dimensions; ++d) ASSERT_EQ(many[k * dimensions + d], one[d]) << k << ' ' << d;
     }
+    const std::vector<std::uint64_t> which{7, 4095, 4096, 3, (std::uint64_t{1} << 33) + 5, 3};
+    std::vector<double> some(which.size() * dimensions);
+    sequence->points_of(which, dimensions, some);
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      sequence->point(which[k], one);
+      for (std::size_t d = 0; d < dimensions; ++d) ASSERT_EQ(some[k * dimensions + d], one[d]) << k << ' ' << d;
+    }
   }
 }
 

@@ -48,6 +48,27 @@ TEST(PlaneOutlines, hold_the_points_of_their_element_and_no_others) {
   }
 }
 
+// What likely holds a point does in most cases, and is an element in any: inside, and far outside.
+TEST(PlaneOutlines, guess_the_element_of_nearly_all_points) {
+  for (const auto& placing : test::placings) {
+    const auto patches = floor_of_a_star(placing);
+    const PlaneOutlines outlines(patches);
+    core::RandomNumbers numbers(4, 0, 0);
+    int guessed = 0;
+    constexpr int points = 20;
+    for (std::uint32_t of = 0; of < patches.size(); ++of)
+      for (int k = 0; k < points; ++k) {
+        const auto& corner = patches[of].corner;
+        const Vec3 x = core::triangle_point(corner[0], corner[1], corner[2], numbers.next(), numbers.next());
+        const auto& [first, second] = outlines.likely(outlines.at(x));
+        guessed += first == of || second == of;
+        for (const std::uint32_t item : outlines.likely(outlines.at(x + 50 * (x - corner[0]))))
+          EXPECT_TRUE(item == PlaneOutlines::none || item < patches.size());
+      }
+    EXPECT_GT(guessed, .95 * points * static_cast<double>(patches.size()));
+  }
+}
+
 TEST(PlaneOutlines, are_not_told_of_corners_and_edges) {
   const auto patches = floor_of_a_star({});
   const PlaneOutlines outlines(patches);
