@@ -11,8 +11,6 @@
 namespace interflect::apps {
 namespace {
 
-constexpr double in_one_plane = 1e-9;  // of the scene's size
-
 std::optional<scene::SurfaceId> surface_named(const scene::Scene& scene, const std::string& name) {
   for (const scene::SurfaceId id : scene.surface_ids())
     if (scene.surface(id).name == name) return id;
@@ -41,8 +39,7 @@ bool looks_inside(const scene::Scene& scene, const raycast::RayCaster& rays, con
 }  // namespace
 
 void warn_of_contacts(const scene::Scene& scene, const raycast::RayCaster& rays) {
-  const double size = scene.box().diagonal().norm();
-  for (const auto& found : scene::overlaps(scene, in_one_plane * size)) {
+  for (const auto& found : scene::overlaps(scene)) {
     const double facing = found.size - found.same_way;
     if (found.other.empty() || !(facing > 0)) continue;
     const double step = std::max(1e-3 * std::sqrt(facing), 2 * rays.offset());

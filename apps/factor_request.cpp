@@ -61,8 +61,7 @@ void require_no_overlap(const FactorRequest& request, const std::string& shown) 
   const auto radiates = [&](std::size_t k) {
     return request.geometry.surfaces[k].role == scene::ExchangeRole::radiates;
   };
-  constexpr double tolerance = 1e-9;  // of the scene's size
-  for (const auto& found : scene::overlaps(scene, tolerance * scene.box().diagonal().norm())) {
+  for (const auto& found : scene::overlaps(scene)) {
     const std::size_t a = at[found.surface], b = found.other.empty() ? a : at[found.other];
     if (!radiates(a) || !radiates(b) || found.twice <= 0) continue;
     if (a != b) throw core::InputError(shown, scene::overlap_text(found) + ": cut them, or --leave-out one");

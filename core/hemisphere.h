@@ -21,7 +21,7 @@ inline Frame frame_around(const Vec3& n) {
   return {{1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}, n};
 }
 
-/// Sine and cosine of `turns` whole turns, 0 <= turns <= 1, within 2e-16: without a branch, so that loops over them
+/// Sine and cosine of `turns` whole turns, 0 <= turns <= 1, within 2.5e-16: without a branch, so that loops over them
 /// become vectors.  By Taylor's series in what is left of the nearest quarter, |x| <= pi / 4, whose next terms are
 /// 5e-17 and 2e-18.
 inline void sin_cos_turns(double turns, double& sine, double& cosine) {

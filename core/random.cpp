@@ -66,8 +66,8 @@ void uniform_of_all(const std::array<Words, together>& high, const std::array<Wo
 }
 
 /// Numbers first .. first + count - 1 of n samples: index(k) of the k-th.
-template <class Index>
-void numbers_of(std::uint64_t seed, std::uint32_t stream, std::size_t n, const Index& index, std::size_t first,
+template <class IndexOf>
+void numbers_of(std::uint64_t seed, std::uint32_t stream, std::size_t n, const IndexOf& index, std::size_t first,
                 std::size_t count, double* u) {
   Counters words;
   std::array<std::uint64_t, lanes> sample{};

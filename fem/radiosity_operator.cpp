@@ -1,7 +1,7 @@
 #include "fem/radiosity_operator.h"
 
 #include <algorithm>
-#include <limits>
+#include <optional>
 
 #include "core/estimate.h"
 #include "fem/assembly.h"
@@ -163,12 +163,21 @@ void copy_kept(const SymmetricOperator& before, std::span<const Index> same_as, 
   });
 }
 
-/// Of entries.  Pictures are asked for none: their bounds are the worst that a cell may do, some hundred times what
-/// cells do together, and row sums tell that.
-double tolerance_to_miss(const RadiositySettings& settings) {
-  return setting_of(settings.form_factors) == Setting::resolution ? std::numeric_limits<double>::infinity()
-                                                                  : settings.quadrature_tolerance;
-}
+/// Counts what entries are beyond their tolerance on their way.  Not of pictures, which heed none: their bounds are the
+/// worst that a cell may do, some hundred times what cells do together, which row sums tell where they are known.
+class CountedBeyond {
+ public:
+  CountedBeyond(ExchangeSink& to, std::span<const double> areas, const RadiositySettings& settings) : to_(to) {
+    if (setting_of(settings.form_factors) != Setting::resolution)
+      beyond_.emplace(to, areas, settings.quadrature_tolerance);
+  }
+  ExchangeSink& sink() { return beyond_ ? *beyond_ : to_; }
+  std::vector<double> rows() const { return beyond_ ? beyond_->all() : std::vector<double>(); }
+
+ private:
+  ExchangeSink& to_;
+  std::optional<BeyondTolerance> beyond_;
+};
 
 /// What pairs that are new add to what rows had before, which is cautious: some of those pairs are gone.
 std::vector<double> beyond_tolerance(std::span<const double> before, std::span<const Index> same_as,
@@ -200,29 +209,28 @@ RadiosityOperator assemble_operator(const scene::Scene& scene, std::span<const s
   const std::vector<double> areas = areas_of(patches);
   if (settings.order > 0) {
     PolynomialOperator polynomials(patches, settings.order);
-    BeyondTolerance constants(*polynomials.K, areas, tolerance_to_miss(settings));
-    BlockSink sink = polynomials.sink(constants);
+    CountedBeyond constants(*polynomials.K, areas, settings);
+    BlockSink sink = polynomials.sink(constants.sink());
     filled = source.fill(sink);
-    out.beyond_tolerance = constants.all();
+    out.beyond_tolerance = constants.rows();
     out.K = std::move(polynomials.K);
     out.blocks = std::move(polynomials.blocks);
   } else if (settings.drop_below > 0) {
     SparseAssembly assembly(areas, settings.drop_below);
-    BeyondTolerance sink(assembly, areas, tolerance_to_miss(settings));
-    filled = source.fill(sink);
-    out.beyond_tolerance = sink.all();
+    CountedBeyond counted(assembly, areas, settings);
+    filled = source.fill(counted.sink());
+    out.beyond_tolerance = counted.rows();
     out.K = assembly.packed(run);
   } else {
     auto K = std::make_unique<DenseSymmetric>(areas);
-    BeyondTolerance sink(*K, areas, tolerance_to_miss(settings));
-    filled = source.fill(sink);
-    out.beyond_tolerance = sink.all();
+    CountedBeyond counted(*K, areas, settings);
+    filled = source.fill(counted.sink());
+    out.beyond_tolerance = counted.rows();
     out.K = std::move(K);
   }
   out.pairs = filled.pairs;
   out.tolerance_met = filled.met;
   if (filled.row_errors.empty()) return out;
-  out.beyond_tolerance.clear();
   out.largest_row_error = *std::max_element(filled.row_errors.begin(), filled.row_errors.end());
   out.row_bound = without_noise(std::move(filled.row_errors), *out.K, run);
   return out;
@@ -234,8 +242,8 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
                                    const RadiositySettings& settings, Run& run) {
   const std::vector<double> areas = areas_of(patches);
   PolynomialOperator polynomials(patches, settings.order);
-  BeyondTolerance constants(*polynomials.K, areas, tolerance_to_miss(settings));
-  BlockSink sink = polynomials.sink(constants);
+  CountedBeyond constants(*polynomials.K, areas, settings);
+  BlockSink sink = polynomials.sink(constants.sink());
   const KeptFirst elements = kept_first(same_as);
   std::vector<scene::SurfacePatch> reordered;
   std::vector<int> reordered_degrees;
@@ -252,7 +260,7 @@ RadiosityOperator refined_operator(const RadiosityOperator& before, std::span<co
   RadiosityOperator out;
   out.pairs = before.pairs;
   out.pairs += assemble_new(*method, reordered, elements.kept, to, run);
-  out.beyond_tolerance = beyond_tolerance(before.beyond_tolerance, same_as, constants.all());
+  out.beyond_tolerance = beyond_tolerance(before.beyond_tolerance, same_as, constants.rows());
   out.K = std::move(polynomials.K);
   out.blocks = std::move(polynomials.blocks);
   return out;

@@ -16,7 +16,7 @@ struct RadiosityOperator {
   /// sum_b bound_ab / A_a of what was not sampled; empty unless `row_tolerance`, `closure` or stored factors need it.
   std::vector<double> row_bound;
   /// sum_b max(0, bound_ab - tolerance K_ab) / A_a: what entries may err by beyond `quadrature_tolerance`
-  /// (BeyondTolerance); empty where `row_bound` is there, which has all.
+  /// (BeyondTolerance); empty where the method heeds none.
   std::vector<double> beyond_tolerance;
   double largest_row_error =
       0;                      ///< max_a sum_b (bound_ab + 1.96 standard_error_ab) / A_a; 0 where `row_bound` is empty

@@ -92,7 +92,7 @@ void RowErrors::count_afresh(std::span<const Index> rows) {
 void BeyondTolerance::add(Index a, Index b, const ExchangeEntry& entry) {
   sink_.add(a, b, entry);
   const double beyond = entry.bound - tolerance_ * entry.K;
-  if (!(beyond > 0)) return;
+  if (beyond <= 0) return;  // what is no number counts
   tally_.add(a, beyond);
   if (a != b) tally_.add(b, beyond);
 }

@@ -35,7 +35,8 @@ class RowErrors final : public ExchangeSink {
 ///
 ///   e_a = sum_b max(0, bound_ab - tolerance K_ab) / A_a
 ///
-/// 0 of a method that meets it, and what it costs to know that is a comparison an entry.
+/// Next to nothing of a method that meets it: what pairs that are hidden in part may be off by is mostly relative to
+/// what they would be unhidden.  A comparison an entry tells.
 class BeyondTolerance final : public ExchangeSink {
  public:
   BeyondTolerance(ExchangeSink& sink, std::span<const double> areas, double tolerance)

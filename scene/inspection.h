@@ -30,9 +30,9 @@ struct Inspection {
 /// are inconsistent where two one-sided neighbours run along their common edge in the same direction.
 Inspection inspect(const Scene& scene);
 
-/// Duplicate faces and coplanar overlaps alone.
-/// @param tolerance  as near to a plane counts as in it, and strips as narrow do not count [m]
-std::vector<Inspection::Finding> overlaps(const Scene& scene, double tolerance);
+/// Duplicate faces and coplanar overlaps alone: within 1e-9 of the scene's size, or what its coordinates resolve if that
+/// is more, planes count as one, and strips that are no wider do not count.
+std::vector<Inspection::Finding> overlaps(const Scene& scene);
 
 std::string describe(Inspection::Finding::Kind kind);
 

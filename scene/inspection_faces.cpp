@@ -74,9 +74,13 @@ void find_coplanar_faces(const Scene& scene, double tolerance, Inspection& inspe
   }
 }
 
-std::vector<Inspection::Finding> overlaps(const Scene& scene, double tolerance) {
+std::vector<Inspection::Finding> overlaps(const Scene& scene) {
+  constexpr double one_plane = 1e-9, coordinates = 0x1p-47;  // of the size; of the largest coordinate
+  const geometry::Box box = scene.box();
+  if (box.isEmpty()) return {};
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   Inspection found;
-  find_coplanar_faces(scene, tolerance, found);
+  find_coplanar_faces(scene, std::max(one_plane * box.diagonal().norm(), coordinates * largest), found);
   return found.findings;
 }
 

@@ -1,6 +1,7 @@
 #include "solvers/element_walks.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/random.h"
 #include "solvers/potential.h"
@@ -8,7 +9,10 @@
 namespace interflect::solvers {
 
 ElementWalks::Wave::Wave(std::span<const WalkStart> starts, const WalkNumbers& numbers, Index columns)
-    : carried(static_cast<Index>(starts.size()), columns), numbers_(numbers), first_(starts.size() * numbers.first) {
+    : carried(static_cast<Index>(starts.size()), columns),
+      numbers_(numbers),
+      first_(starts.size() * numbers.first),
+      used_(numbers.used) {
   for (const WalkStart& each : starts) {
     start.push_back(each.unknown);
     walk_.push_back(each.walk);
@@ -23,7 +27,7 @@ void ElementWalks::Wave::keep(std::size_t from, std::size_t to) {
 }
 
 void ElementWalks::Wave::shrink(std::size_t size) {
-  if (size < walk_.size()) numbers_.used = numbers_.first;
+  if (size < walk_.size()) used_ = numbers_.first;
   const auto cut = [size](auto& of_each) {
     of_each.erase(of_each.begin() + static_cast<std::ptrdiff_t>(size), of_each.end());
   };
@@ -33,14 +37,13 @@ void ElementWalks::Wave::shrink(std::size_t size) {
 
 void ElementWalks::Wave::draw(std::size_t count, std::vector<double>& u) {
   u.resize(size() * count);
-  if (numbers_.used + count > numbers_.first) {
+  if (used_ + count > numbers_.first) {
     core::random_numbers(numbers_.seed, numbers_.stream, walk_, drawn_, count, u);
     drawn_ += count;
     return;
   }
-  for (std::size_t k = 0; k < size(); ++k)
-    std::copy_n(&first_[k * numbers_.first + numbers_.used], count, &u[k * count]);
-  numbers_.used += count;
+  for (std::size_t k = 0; k < size(); ++k) std::copy_n(&first_[k * numbers_.first + used_], count, &u[k * count]);
+  used_ += count;
 }
 
 ElementWalks::ElementWalks(const System& system, Score score)

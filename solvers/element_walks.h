@@ -90,7 +90,8 @@ class ElementWalks {
    private:
     WalkNumbers numbers_;
     std::vector<std::uint64_t> walk_;
-    std::vector<double> first_;  ///< numbers of all that started: no longer used when one of them has ended
+    std::vector<double> first_;  ///< numbers of all that started: of no use when one of them has ended
+    std::size_t used_;           ///< of those, by each
     std::size_t drawn_ = 0;      ///< of the others, by each
   };
 

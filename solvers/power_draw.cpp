@@ -16,11 +16,11 @@ PowerDraw::PowerDraw(const ColumnMatrix& power)
     for (Index c = 0; c < weight.size(); ++c) share += weight(c) * std::abs(*entry++);
     cumulative = sum += share;
   }
-  if (sum > 0) make_guide();
+  if (sum > 0 && std::isfinite(sum)) make_guide();
 }
 
-/// guide[k] = how many unknowns end before part k begins, whatever rounds: counted where they end, and added up.  A pass
-/// without branches, since there may be no more draws than unknowns.
+/// guide[k] = how many unknowns end before part k begins, whatever rounds: counted where they end, and added up.  A
+/// pass without branches, since there may be no more draws than unknowns.
 void PowerDraw::make_guide() {
   constexpr double whatever_rounds = 1 + 1e-12;  // what ends at the last part's end still counts at last + 1
   const double parts = static_cast<double>(cumulative_.size()) / cumulative_.back() * whatever_rounds;

@@ -383,8 +383,7 @@ class Enclosure::Iteration {
 };
 
 void require_no_place_twice(const scene::Scene& scene) {
-  constexpr double in_one_plane = 1e-9;  // of the scene's size
-  for (const auto& found : scene::overlaps(scene, in_one_plane * scene.box().diagonal().norm()))
+  for (const auto& found : scene::overlaps(scene))
     if (found.twice > 0)
       throw core::InputError("bounds", scene::overlap_text(found) +
                                            ": what is seen there is not defined, and nothing can be proved; cut them, "

@@ -10,8 +10,8 @@
 
 namespace interflect::fem {
 
-/// Of surfaces in one place none hides the other.  Where two with elements face the same way there, both would be seen
-/// as a whole, and what is seen is not defined.
+/// Of surfaces in one place none hides the other.  Where two with elements face the same way there (scene::overlaps),
+/// both would be seen as a whole, and what is seen is not defined.
 /// @throws core::InputError  which they are, and where
 void require_no_place_twice(const scene::Scene& scene);
 

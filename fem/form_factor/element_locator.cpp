@@ -53,21 +53,25 @@ ElementLocator::Guess ElementLocator::guess(const scene::SurfacePoint& point) co
   return {&part, part.outlines.likely(x), x};
 }
 
-Index ElementLocator::by(const Guess& guess, const scene::SurfacePoint& point) const {
-  if (guess.part == nullptr) return none;
-  for (const std::uint32_t item : guess.items)
+/// The first of some that surely holds the point.
+Index ElementLocator::sure_among(const Guess& guess, std::span<const std::uint32_t> items) {
+  for (const std::uint32_t item : items)
     if (item != PlaneOutlines::none && guess.part->outlines.surely_holds(item, guess.in_plane))
       return guess.part->first + item;
-  return among_near(guess, point);
+  return none;
+}
+
+Index ElementLocator::by(const Guess& guess, const scene::SurfacePoint& point) const {
+  if (guess.part == nullptr) return none;
+  const Index likely = sure_among(guess, guess.items);
+  return likely != none ? likely : among_near(guess, point);
 }
 
 Index ElementLocator::among_near(const Guess& guess, const scene::SurfacePoint& point) const {
   const Part& part = *guess.part;
   const std::span<const std::uint32_t> items = part.grid.near(point.position);
-  if (part.outlines.flat())
-    for (const std::uint32_t item : items)
-      if (part.outlines.surely_holds(item, guess.in_plane)) return part.first + item;
-  return nearest_among(part, items, point);
+  const Index sure = part.outlines.flat() ? sure_among(guess, items) : none;
+  return sure != none ? sure : nearest_among(part, items, point);
 }
 
 /// In double precision, and of several that hold it the one in whose plane it lies.

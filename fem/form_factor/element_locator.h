@@ -14,8 +14,8 @@
 namespace interflect::fem {
 
 /// From what a ray hits to the element there: the answer of `mesh::ElementMesh::locate`, some twenty times sooner,
-/// since it asks only those elements in whose boxes the point lies, and of them only whether they hold it.  Where
-/// rounding lets none do so, `locate` is asked.
+/// since it asks what likely holds the point (plane_outlines.h), then those elements in whose boxes it lies, and of them
+/// only whether they hold it.  Where rounding lets none do so, `locate` is asked.
 class ElementLocator {
  public:
   static constexpr Index none = -1;
@@ -60,6 +60,7 @@ class ElementLocator {
   static Outline outline_of(const scene::SurfacePatch& patch);
   Guess guess(const scene::SurfacePoint& point) const;
   Index by(const Guess& guess, const scene::SurfacePoint& point) const;
+  static Index sure_among(const Guess& guess, std::span<const std::uint32_t> items);
   Index among_near(const Guess& guess, const scene::SurfacePoint& point) const;
   Index nearest_among(const Part& part, std::span<const std::uint32_t> items, const scene::SurfacePoint& point) const;
 

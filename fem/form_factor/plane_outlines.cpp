@@ -51,10 +51,12 @@ void PlaneOutlines::spread_cells(std::span<const scene::SurfacePatch> patches) {
     mean += box.sizes().array() / static_cast<float>(patches.size());
   }
   constexpr float along_an_element = 4, most_an_element = 64;
-  Eigen::Array2f cells = along_an_element * all.sizes().array() / mean;
-  cells *= std::min(1.0F, std::sqrt(most_an_element * static_cast<float>(boxes.size()) / cells.prod()));
-  cells = cells.round().max(1);
-  low_ = all.min(), per_length_ = cells / all.sizes().array(), last_ = cells - 1;
+  const float most = most_an_element * static_cast<float>(boxes.size());
+  const Eigen::Array2f sizes = all.sizes().array().max(margin_);
+  Eigen::Array2f cells = (along_an_element * sizes / mean.max(margin_)).max(1);
+  cells *= std::min(1.0F, std::sqrt(most / cells.prod()));
+  cells = cells.max(1).min(most).round();
+  low_ = all.min(), per_length_ = cells / sizes, last_ = cells - 1;
   across_ = static_cast<std::size_t>(cells.x());
   likely_.assign(across_ * static_cast<std::size_t>(cells.y()), {none, none});
   // What holds the middle comes first, then what holds most of the rest.

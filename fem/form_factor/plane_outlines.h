@@ -1,6 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -28,13 +29,10 @@ class PlaneOutlines {
     const Vec3 d = x - origin_;
     return {static_cast<float>(s_.dot(d)), static_cast<float>(t_.dot(d))};
   }
-  /// The two elements that most likely hold a point, the first one the middle of its cell; `none` for those that are
-  /// not there.
+  /// Two elements that likely hold a point, first the one that holds the middle of its cell, if any does; `none` in the
+  /// place of what is not there.
   using Likely = std::array<std::uint32_t, 2>;
-  const Likely& likely(const Eigen::Vector2f& x) const {
-    const Eigen::Array2f cell = ((x - low_).array() * per_length_).max(0.0F).min(last_);
-    return likely_[static_cast<std::size_t>(cell.y()) * across_ + static_cast<std::size_t>(cell.x())];
-  }
+  const Likely& likely(const Eigen::Vector2f& x) const { return likely_[cell(1, x) * across_ + cell(0, x)]; }
   bool surely_holds(std::uint32_t item, const Eigen::Vector2f& x) const {
     const Outline& o = outlines_[item];
     return (o.s * x.x() + o.t * x.y() - o.offset).minCoeff() > margin_;
@@ -48,6 +46,10 @@ class PlaneOutlines {
     Eigen::Array4f s = Eigen::Array4f::Zero(), t = s, offset = Eigen::Array4f::Constant(-1e30F);
   };
 
+  std::size_t cell(Index axis, const Eigen::Vector2f& x) const {
+    const float place = (x[axis] - low_[axis]) * per_length_[axis];
+    return place > 0 ? static_cast<std::size_t>(std::min(place, last_[axis])) : 0;
+  }
   void spread_cells(std::span<const scene::SurfacePatch> patches);
   void take_places(std::span<const Eigen::AlignedBox2f> boxes, const Eigen::Array2f& in_cell);
 

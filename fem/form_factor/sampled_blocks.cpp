@@ -15,7 +15,7 @@ class SampledBlocks::Work final : public PairWork {
   void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) override {
     const SampledVisibility V = sampled(pair, method_.shapes(), method_.visibility_, workspace_, counts);
     const PairMoments unoccluded = method_.block(pair.i, pair.j, pair.unoccluded);
-    const double K_00 = method_.of_constants(unoccluded, pair.unoccluded);
+    const double K_00 = unoccluded.value(0, 0);
     const PairMoments seen = seen_block(unoccluded, K_00, V, workspace_, method_.basis(pair.i), method_.basis(pair.j),
                                         method_.shapes().origin());
     write_block(pair.i, pair.j, stride_, seen, K_00 * V.standard_error, sink);

@@ -23,8 +23,6 @@ class SampledBlocks : public PairMethod {
   virtual PairMoments block(Index i, Index j, const PairIntegral& K) const = 0;
   /// Of the context's order.
   virtual const PlaneBasis& basis(Index i) const = 0;
-  /// K_00,unoccluded, which noise is relative to: the block's own, but where K is the better one.
-  virtual double of_constants(const PairMoments& block, const PairIntegral& /*K*/) const { return block.value(0, 0); }
 
  private:
   class Work;

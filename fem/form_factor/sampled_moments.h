@@ -15,7 +15,6 @@ class SampledMoments final : public SampledBlocks {
  private:
   PairMoments block(Index i, Index j, const PairIntegral& K) const override { return moments_.of(i, j)(i, j, K); }
   const PlaneBasis& basis(Index i) const override { return moments_.basis(i); }
-  double of_constants(const PairMoments& /*block*/, const PairIntegral& K) const override { return K.value; }
 
   MomentsByDegree moments_;
 };

@@ -150,7 +150,8 @@ TEST(ErrorEstimate, noise_of_means_over_surfaces_is_what_seeds_scatter_by) {
   EXPECT_LT(ratio, 1.0);
 }
 
-// The mean of all elements, of which any two may see each other, so that two have each random number.
+// The mean of all elements, of which any two may see each other, so that two have each random number.  What is stated is
+// a bound, so that chance alone would take the scatter of 24 seeds beyond it once in thousands of sets of seeds.
 TEST(ErrorEstimate, noise_of_the_mean_of_all_is_at_least_what_seeds_scatter_by) {
   constexpr int seeds = 24;
   for (const double reflectance : {.3, .85}) {
@@ -192,22 +193,30 @@ scene::Scene wedge(double angle) {
 // nearly closed wedges miss much, by closed forms they do not.
 TEST(ErrorEstimate, has_what_form_factors_are_beyond_their_tolerance) {
   const scene::Scene scene = wedge(2 * std::numbers::pi / 180);
-  const auto by = [&](const std::string& method) {
-    RadiositySettings settings;
-    settings.element_size = 1;
-    settings.form_factors = method;
-    core::LocalRun run(1, 2);
-    return solve_radiosity(scene, settings, run);
-  };
-  const RadiositySolution rules = by("duffy"), closed_form = by("analytic");
-  double largest = 0;
-  for (std::size_t i = 0; i < rules.irradiance.size(); ++i) {
-    const double off = std::abs(rules.irradiance[i][0] - closed_form.irradiance[i][0]);
-    EXPECT_LE(off, rules.irradiance_error[i][0]);
-    EXPECT_LT(rules.irradiance_error[i][0] - closed_form.irradiance_error[i][0], 10 * off + 1e-2);
-    largest = std::max(largest, off / closed_form.irradiance[i][0]);
+  for (const std::string closure : {"none", "scaling"}) {
+    const auto by = [&](const std::string& method) {
+      RadiositySettings settings;
+      settings.element_size = 1;
+      settings.form_factors = method;
+      settings.closure = closure;
+      core::LocalRun run(1, 2);
+      return solve_radiosity(scene, settings, run);
+    };
+    const RadiositySolution rules = by("duffy"), closed_form = by("analytic");
+    double largest = 0;
+    for (std::size_t i = 0; i < rules.irradiance.size(); ++i) {
+      const double off = std::abs(rules.irradiance[i][0] - closed_form.irradiance[i][0]);
+      EXPECT_LE(off, rules.irradiance_error[i][0]) << closure;
+      if (closure == "none") {  // a repaired matrix is better than what is known of it
+        EXPECT_LT(rules.irradiance_error[i][0] - closed_form.irradiance_error[i][0],
+                  10 * off + .01 * closed_form.irradiance[i][0]);
+      }
+      largest = std::max(largest, off / closed_form.irradiance[i][0]);
+    }
+    if (closure == "none") {
+      EXPECT_GT(largest, 3 * RadiositySettings().quadrature_tolerance);  // else this says nothing
+    }
   }
-  EXPECT_GT(largest, 3 * RadiositySettings().quadrature_tolerance);  // else this says nothing
 }
 
 // Linear irradiance over a parent: the variation inside a child follows exactly.  Square of side 1, gradient 1 along x:

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/hemisphere.h"
 #include "mesh/uniform.h"
 #include "tests/support/shapes.h"
@@ -67,6 +69,31 @@ TEST(PlaneOutlines, guess_the_element_of_nearly_all_points) {
       }
     EXPECT_GT(guessed, .95 * points * static_cast<double>(patches.size()));
   }
+}
+
+scene::SurfacePatch rectangle(double x, double y, double width, double height) {
+  return scene::make_patch({0}, scene::Side::front,
+                           std::array<Vec3, 4>{Vec3(x, y, 0), Vec3(x + width, y, 0), Vec3(x + width, y + height, 0),
+                                               Vec3(x, y + height, 0)});
+}
+
+// One element; a large one beside a thousand times smaller ones; slivers far apart that single precision sees no width
+// of; and points that are no numbers.
+TEST(PlaneOutlines, guess_whatever_shapes_elements_have) {
+  std::vector<scene::SurfacePatch> unequal{rectangle(0, 0, 1, 1)};
+  for (int k = 0; k < 200; ++k) unequal.push_back(rectangle(1 + .001 * k, 0, .001, .001));
+  const std::vector<scene::SurfacePatch> one{rectangle(3, 4, 2, .5)},
+      slivers{rectangle(0, 0, 1e-9, 1), rectangle(1e3, 0, 1e-9, 1)};
+  for (const auto& patches : {one, unequal, slivers}) {
+    const PlaneOutlines outlines(patches);
+    ASSERT_TRUE(outlines.flat());
+    for (const scene::SurfacePatch& patch : patches)
+      for (const std::uint32_t item : outlines.likely(outlines.at(patch.centroid())))
+        EXPECT_TRUE(item == PlaneOutlines::none || item < patches.size());
+    outlines.likely(Eigen::Vector2f::Constant(std::numeric_limits<float>::quiet_NaN()));
+    outlines.likely(Eigen::Vector2f::Constant(std::numeric_limits<float>::infinity()));
+  }
+  EXPECT_EQ(PlaneOutlines(one).likely(PlaneOutlines(one).at(one[0].centroid()))[0], 0u);
 }
 
 TEST(PlaneOutlines, are_not_told_of_corners_and_edges) {

@@ -114,6 +114,34 @@ TEST(RayCasters, find_the_same_one_by_one_and_many_at_once) {
   }
 }
 
+// In groups that fill no packet, and at edges and corners of a closed body, where two facets are met at once.
+TEST(RayCasters, find_as_much_one_by_one_and_many_at_once_wherever_rays_go) {
+  scene::SceneBuilder builder({"grey"});
+  builder.add_box("room", geometry::Box(Vec3(0, 0, 0), Vec3(1, 1, 1)),
+                  builder.add_material(test::diffuse("grey", .5, 0)), scene::SceneBuilder::Facing::inward);
+  const scene::Scene scene = builder.finish();
+  for (const std::string& name : ray_caster_names()) {
+    const auto caster = make_ray_caster(name, scene);
+    std::vector<Ray> rays;
+    for (int x = 0; x <= 4; ++x)
+      for (int y = 0; y <= 4; ++y)
+        for (int z = 0; z <= 4; ++z) {
+          const Vec3 from(.4, .45, .55), to(x / 4., y / 4., z / 4.);
+          rays.push_back({from, (to - from).normalized()});
+        }
+    for (const std::size_t count :
+         {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{8}, std::size_t{9}, rays.size()}) {
+      std::vector<std::optional<scene::SurfacePoint>> hits(count);
+      caster->closest_each(std::span(rays).first(count), hits);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto hit = caster->closest(rays[k]);
+        ASSERT_TRUE(hit.has_value() && hits[k].has_value()) << name << k;  // no ray leaks
+        EXPECT_LT((hits[k]->position - hit->position).norm(), 1e-6) << name << k;
+      }
+    }
+  }
+}
+
 TEST(RayCasters, agree_on_occlusion_one_by_one_and_eight_by_eight) {
   for (const auto& placing : placings) {
     const scene::Scene scene = soup(300, 5, placing);

@@ -169,7 +169,7 @@ TEST(Inspect, overlaps_tell_what_active_sides_have_in_common) {
     site.builder.add_polygon("a", {square(0, 0, 0, 1), {}}, first_two_sided ? site.sheet : site.wall);
     site.builder.add_polygon("b", {same_way ? square(0, 0, 0, 1) : other, {}},
                              second_two_sided ? site.sheet : site.wall);
-    const auto found = overlaps(site.builder.finish(), 1e-9);
+    const auto found = overlaps(site.builder.finish());
     return found.size() == 1 ? found[0].twice : -1;
   };
   for (const bool first : {false, true})
