@@ -516,6 +516,24 @@ TEST(Solve, removes_what_an_earlier_run_left) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
 }
 
+// Where time is over each group has what rays told of it so far, and all together are the whole within what both state.
+TEST(Dim, has_all_groups_of_a_solve_by_rays_that_ran_out_of_time) {
+  const TemporaryFolder folder;
+  const Outcome solve =
+      interflect({"solve", shipped_scene("office"), "--solver", "shooting-collision", "--noise", "0.001%", "--max-time",
+                  "1", "--element-size", "0.8", "--light-groups", "--no-pictures", "-o", folder / "out"});
+  EXPECT_EQ(solve.status, 1) << solve.err;
+  EXPECT_TRUE(contains(solve.err, "--max-time is over")) << solve.err;
+  const Outcome dim = interflect({"dim", folder / "out", "-o", folder / "full", "--no-pictures"});
+  ASSERT_EQ(dim.status, 0) << dim.err;
+  const json whole = json::parse(read_file(folder / "out/summary.json")),
+             sum = json::parse(read_file(folder / "full/summary.json"));
+  EXPECT_NEAR(sum.at("mean_irradiance").get<double>(), whole.at("mean_irradiance").get<double>(),
+              whole.at("mean_irradiance_error").get<double>());
+  EXPECT_GT(sum.at("mean_irradiance_error").get<double>(), 0);
+  EXPECT_NEAR(sum.at("mean_irradiance").get<double>() / whole.at("mean_irradiance").get<double>(), 1, .03);
+}
+
 // What is dimmed is what a solve of the dimmed scene is.
 TEST(Dim, is_a_solve_of_the_dimmed_scene) {
   const TemporaryFolder folder;
