@@ -70,7 +70,6 @@ TEST(RayTransitions, have_form_factors_for_probabilities) {
   EXPECT_NEAR(chi_squared / pairs, 1, 5 * std::sqrt(2 / pairs));
 }
 
-// Random walks by rays arrive where the matrix does, within what they state, and its own tolerance of 1e-3.
 TEST(RayTransitions, lead_to_the_same_one_by_one_and_many_at_once) {
   const Furnished room;
   const RayTransitions transitions(room.patches, *room.rays);
@@ -90,6 +89,7 @@ TEST(RayTransitions, lead_to_the_same_one_by_one_and_many_at_once) {
   EXPECT_GT(nowhere, 5u);
 }
 
+// Random walks by rays arrive where the matrix does, within what they state, and its own tolerance of 1e-3.
 TEST(RayTransitions, lead_random_walks_to_the_solution) {
   const Furnished room;
   const RayTransitions transitions(room.patches, *room.rays);
