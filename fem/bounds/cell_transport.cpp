@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fem/bounds/allotment.h"
 #include "scene/place.h"
@@ -201,11 +200,6 @@ class Examination {
 };
 
 }  // namespace
-
-Bounds Bounds::none(Index channels) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {Row::Constant(channels, infinity), Row::Constant(channels, -infinity)};
-}
 
 void ShiftedSum::shift(const Row& m) {
   const Row change = middle - m;

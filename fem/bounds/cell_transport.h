@@ -6,25 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "fem/bounds/bounds.h"
 #include "fem/bounds/linear_field.h"
 
 namespace interflect::fem {
-
-/// Lower and upper bounds, per channel.
-struct Bounds {
-  Eigen::RowVectorXd lower, upper;
-
-  static Bounds zero(Index channels) {
-    return {Eigen::RowVectorXd::Zero(channels), Eigen::RowVectorXd::Zero(channels)};
-  }
-  /// Of nothing yet: to be widened.
-  static Bounds none(Index channels);
-  void widen(const Bounds& to) {
-    lower = lower.cwiseMin(to.lower);
-    upper = upper.cwiseMax(to.upper);
-  }
-  Bounds operator+(const Bounds& other) const { return {lower + other.lower, upper + other.upper}; }
-};
 
 /// What a cell may receive from a part of an element; in single precision, since there are many.
 struct Exchange {

@@ -29,9 +29,8 @@ void require_no_place_twice(const scene::Scene& scene);
 /// iteration of an M-matrix).
 ///
 /// T B_h over a part of an element is bounded by cell_transport.h, as a polynomial of second degree and its doubt; so r
-/// is on the elements' quarters and theirs (cell_view.h), with its mean m and the mean deviation d from it.  Of what a
-/// place sees whole, int k r = F m + (<= across d): since the means of a residual are small, as Galerkin's are, or
-/// cancel among quarters, little is left.  Of other parts F is known, and r is between its own bounds there.
+/// is on the elements' quarters and theirs (node_residuals.h), and T (r + rho g) is by its means there, since the means
+/// of a residual are small, as Galerkin's are, or cancel among quarters (error_transport.h).
 ///
 /// Widths of e are O(h) about constants where the solution is smooth, since B varies by as much over an element, and
 /// O(h²) about linear functions; those of H anywhere in an element are O(h) in any case.

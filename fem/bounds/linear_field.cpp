@@ -40,7 +40,7 @@ LinearField::LinearField(const Surroundings& around, const RadiositySolution& so
 }
 
 /// By the triangles of a fan: over one of area A the linear f has int f = A/3 sum f_k, int f² = A/12 (sum f_k² +
-/// (sum f_k)²).
+/// (sum f_k)²).  A part without area may be anything between what it is at its corners.
 LinearField::OnPart LinearField::on(Index element, std::span<const Vec3> ring, Index channel) const {
   const double first = at(element, ring[0], channel);
   if (!linear_) return {first, first, first, 0};
@@ -58,6 +58,7 @@ LinearField::OnPart LinearField::on(Index element, std::span<const Vec3> ring, I
     part.upper = std::max(part.upper, next);
     before = next;
   }
+  if (!(area > 0)) return {0.5 * (part.lower + part.upper), part.lower, part.upper, 0.5 * (part.upper - part.lower)};
   part.mean /= area;
   part.deviation = std::sqrt(std::max(0.0, squares / area - part.mean * part.mean));
   part.mean += first;

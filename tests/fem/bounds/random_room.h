@@ -106,7 +106,8 @@ inline Held held_against(const Enclosure& enclosure, const RadiositySolution& s,
     double largest = 0;
     for (const Vec3& x : places_in(patch, anywhere, random)) {
       const double H = truth.irradiance({x, patch.normal(), patch.surface});
-      const double b = s.exitance[i][0] + s.reflectance[i][0] * H, e = b - s.radiosity[i][0];
+      const double b = s.exitance[i][0] + s.reflectance[i][0] * H,
+                   e = b - (s.field ? s.field->at(i, x) : s.radiosity[i])[0];
       ++held.points;
       if (!within(H, enclosure.irradiance()[i]) || !within(b, B) || !within(e, enclosure.error()[i])) ++held.outside;
       largest = std::max(largest, std::abs(e));
