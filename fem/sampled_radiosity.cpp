@@ -142,6 +142,38 @@ RadiositySolution to_some_end(const Sampling& sampling, const std::vector<Spectr
   }
 }
 
+/// How many more rounds, of as many samples as all before them each, until the noise is what is asked for: as fast as it
+/// fell in the last ones, or as independent samples would.
+double rounds_to_come(const std::vector<solvers::IterationRecord>& history, double noise) {
+  constexpr std::size_t looked_at = 4;
+  const double last = history.back().residual;
+  if (!(last > noise)) return 0;
+  double order = 0.5;
+  if (history.size() > looked_at)
+    order = std::clamp(std::log2(history[history.size() - 1 - looked_at].residual / last) / looked_at, 0.5, 1.0);
+  return std::ceil(std::log2(last / noise) / order);
+}
+
+/// By a first round, and where that is over soon by those of a second.
+double seconds_of_a_solve(const Sampling& sampling, const solvers::StoppingRule& rule, const Run& run) {
+  constexpr double enough = 1;
+  Run trial = run.to_the_end();
+  solvers::StoppingRule some = rule;
+  const auto rounds = [&] { return sampling.solved(sampling.materials().exitance, some, trial).solver.history; };
+  some.max_iterations = 1;
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<solvers::IterationRecord> history = rounds();
+  const double all = core::seconds_since(start);
+  if (history.empty()) return all;
+  const double beside = all - history.back().seconds;
+  if (all < enough && rule.max_iterations > 1) {
+    some.max_iterations = rule.max_iterations;
+    some.max_seconds = std::min(enough, rule.max_seconds);
+    history = rounds();
+  }
+  return beside + history.back().seconds * std::exp2(rounds_to_come(history, rule.noise));
+}
+
 }  // namespace
 
 RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
@@ -174,16 +206,11 @@ Forecast forecast_of_sampling(const scene::Scene& scene, const RadiositySettings
   require_constants(settings);
   const mesh::ElementMesh mesh = mesh_of(scene, settings);
   const Sampling sampling(scene, settings, mesh);
-  solvers::StoppingRule first_round = settings.stopping;
-  first_round.max_iterations = 1;
-  Run trial = run.to_the_end();
-  const auto start = std::chrono::steady_clock::now();
-  const RadiositySolution tried = sampling.solved(sampling.materials().exitance, first_round, trial);
-  const double times = tried.solver.residual() / settings.stopping.noise;
   const double a_column = 8.0 * scene.channel_count() * (settings.solver_settings.replications + 4);
+  const double solves = settings.light_groups ? 1.0 + static_cast<double>(measure::light_groups(scene).size()) : 1.0;
   const auto elements = static_cast<double>(mesh.size());
   return {elements, elements * (bytes_of_an_element + a_column),
-          core::seconds_since(start) * std::max(1.0, times * times)};
+          solves * seconds_of_a_solve(sampling, settings.stopping, run)};
 }
 
 }  // namespace interflect::fem

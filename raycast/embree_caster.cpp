@@ -1,6 +1,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cfenv>
 #include <limits>
 #include <mutex>
@@ -114,15 +115,9 @@ class EmbreeCaster final : public RayCaster {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit8 query;
-    alignas(32) std::array<int, lanes> valid;
-    valid.fill(-1);
-    for (std::size_t first = 0; first < rays.size(); first += lanes) {
-      const std::size_t used = std::min(lanes, rays.size() - first);
-      for (std::size_t lane = 0; lane < used; ++lane) set_lane(query, lane, rays[first + lane]);
-      for (std::size_t lane = used; lane < lanes; ++lane) valid[lane] = 0, set_lane(query, lane, rays[first]);
-      rtcIntersect8(valid.data(), bvh_.get(), &context, &query);
-      for (std::size_t lane = 0; lane < used; ++lane) hits[first + lane] = hit_of(query.hit, lane, rays[first + lane]);
-    }
+    in_packets(
+        rays, query, [&](const int* valid) { rtcIntersect8(valid, bvh_.get(), &context, &query); },
+        [&](std::size_t k, std::size_t lane) { hits[k] = hit_of(query.hit, lane, rays[k]); });
   }
 
   void all(const Ray& ray, std::vector<scene::SurfacePoint>& hits) const override {
@@ -155,15 +150,9 @@ class EmbreeCaster final : public RayCaster {
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     RTCRay8 query;
-    alignas(32) std::array<int, lanes> valid;
-    valid.fill(-1);
-    for (std::size_t first = 0; first < segments.size(); first += lanes) {
-      const std::size_t used = std::min(lanes, segments.size() - first);
-      for (std::size_t lane = 0; lane < used; ++lane) set_lane(query, lane, segments[first + lane]);
-      for (std::size_t lane = used; lane < lanes; ++lane) valid[lane] = 0, set_lane(query, lane, segments[first]);
-      rtcOccluded8(valid.data(), bvh_.get(), &context, &query);
-      for (std::size_t lane = 0; lane < used; ++lane) blocked[first + lane] = query.tfar[lane] < 0;
-    }
+    in_packets(
+        segments, query, [&](const int* valid) { rtcOccluded8(valid, bvh_.get(), &context, &query); },
+        [&](std::size_t k, std::size_t lane) { blocked[k] = query.tfar[lane] < 0; });
   }
 
  private:
@@ -189,6 +178,23 @@ class EmbreeCaster final : public RayCaster {
     if (hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     const unsigned facet = hit.primID[lane];
     return surface_point(facets_[facet], facet, ray.direction, hit.u[lane], hit.v[lane]);
+  }
+
+  /// Packet by packet: all lanes are set, `trace` gets those that are valid, and `answer` item k and its lane.  Of the
+  /// last packet, lanes without an item of their own repeat one and are not valid.
+  template <class Item, class Query, class Trace, class Answer>
+  void in_packets(std::span<const Item> items, Query& query, const Trace& trace, const Answer& answer) const {
+    alignas(32) std::array<int, lanes> valid;
+    valid.fill(-1);
+    for (std::size_t first = 0; first < items.size(); first += lanes) {
+      const std::size_t used = std::min(lanes, items.size() - first);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (lane >= used) valid[lane] = 0;
+        set_lane(query, lane, items[first + (lane < used ? lane : 0)]);
+      }
+      trace(valid.data());
+      for (std::size_t lane = 0; lane < used; ++lane) answer(first + lane, lane);
+    }
   }
 
   void set_lane(RTCRayHit8& query, std::size_t lane, const Ray& ray) const {

@@ -1,7 +1,5 @@
 #include "fem/form_factor/gauss_lambert.h"
 
-#include "fem/form_factor/sampled_pair.h"
-
 namespace interflect::fem {
 
 class GaussLambert::Rays final : public PairOcclusion {
@@ -10,7 +8,7 @@ class GaussLambert::Rays final : public PairOcclusion {
 
   ExchangeEntry operator()(const DoubtfulPair& pair, PairCounts& counts) override {
     const double value = pair.unoccluded.value;
-    const SampledVisibility v = sampled(pair, method_.shapes(), method_.visibility_, workspace_, counts);
+    const SampledVisibility v = method_.visibility_(pair, method_.shapes(), workspace_, counts);
     return {value * v.visible, value * v.standard_error, v.visible * pair.unoccluded.error};
   }
 
@@ -19,9 +17,7 @@ class GaussLambert::Rays final : public PairOcclusion {
   VisibilitySampler::Workspace workspace_;
 };
 
-GaussLambert::GaussLambert(const FormFactorContext& context)
-    : PairMethod(context),
-      visibility_(context.patches, context.rays, context.visibility_rays, context.seed, context.visibility_error) {}
+GaussLambert::GaussLambert(const FormFactorContext& context) : PairMethod(context), visibility_(context) {}
 
 std::unique_ptr<PairWork> GaussLambert::work() const { return std::make_unique<Rays>(*this); }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/form_factor/pair_method.h"
-#include "fem/form_factor/visibility.h"
+#include "fem/form_factor/pair_visibility.h"
 
 namespace interflect::fem {
 
@@ -16,7 +16,7 @@ class GaussLambert final : public PairMethod {
   class Rays;
   std::unique_ptr<PairWork> work() const override;
 
-  VisibilitySampler visibility_;
+  PairVisibility visibility_;
 };
 
 }  // namespace interflect::fem

@@ -1,6 +1,5 @@
 #include "fem/form_factor/sampled_blocks.h"
 
-#include "fem/form_factor/sampled_pair.h"
 #include "fem/form_factor/seen_block.h"
 
 namespace interflect::fem {
@@ -13,7 +12,7 @@ class SampledBlocks::Work final : public PairWork {
     write_block(i, j, stride_, method_.block(i, j, K), 0, sink);
   }
   void doubtful(const DoubtfulPair& pair, ExchangeSink& sink, PairCounts& counts) override {
-    const SampledVisibility V = sampled(pair, method_.shapes(), method_.visibility_, workspace_, counts);
+    const SampledVisibility V = method_.visibility_(pair, method_.shapes(), workspace_, counts);
     const PairMoments unoccluded = method_.block(pair.i, pair.j, pair.unoccluded);
     const double K_00 = unoccluded.value(0, 0);
     const PairMoments seen = seen_block(unoccluded, K_00, V, workspace_, method_.basis(pair.i), method_.basis(pair.j),
@@ -27,9 +26,7 @@ class SampledBlocks::Work final : public PairWork {
   VisibilitySampler::Workspace workspace_;
 };
 
-SampledBlocks::SampledBlocks(const FormFactorContext& context)
-    : PairMethod(context),
-      visibility_(context.patches, context.rays, context.visibility_rays, context.seed, context.visibility_error) {}
+SampledBlocks::SampledBlocks(const FormFactorContext& context) : PairMethod(context), visibility_(context) {}
 
 std::unique_ptr<PairWork> SampledBlocks::work() const { return std::make_unique<Work>(*this); }
 

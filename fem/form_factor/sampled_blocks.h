@@ -2,7 +2,7 @@
 
 #include "fem/form_factor/pair_method.h"
 #include "fem/form_factor/pair_moments.h"
-#include "fem/form_factor/visibility.h"
+#include "fem/form_factor/pair_visibility.h"
 
 namespace interflect::fem {
 
@@ -28,7 +28,7 @@ class SampledBlocks : public PairMethod {
   class Work;
   std::unique_ptr<PairWork> work() const final;
 
-  VisibilitySampler visibility_;
+  PairVisibility visibility_;
 };
 
 }  // namespace interflect::fem

@@ -167,6 +167,19 @@ TEST(SampledRadiosity, refuses_what_it_cannot_do) {
   EXPECT_NE(complaint(settings_of("control-variate-stochastic-jacobi")).find("closed"), std::string::npos);
 }
 
+// Its rounds are tried until a second has gone by, and those to come are told from how the noise fell: within a factor
+// of five on a machine that does other work meanwhile.
+TEST(SampledRadiosity, is_forecast_by_what_it_takes) {
+  const scene::Scene scene = furnished();
+  core::LocalRun run(4, 2);
+  RadiositySettings settings = settings_of("stochastic-jacobi");
+  settings.stopping.noise = 2.5e-3;
+  const double about = forecast(scene, settings, run).seconds;
+  const solvers::SolverReport taken = solve_radiosity(scene, settings, run).solver;
+  EXPECT_GT(about, .2 * taken.history.back().seconds);
+  EXPECT_LT(about, 5 * taken.history.back().seconds);
+}
+
 TEST(SampledRadiosity, of_darkness_is_darkness) {
   Room room;
   room.box({0, 0, 0}, {1, 1, 1}, 1, true, .5);
