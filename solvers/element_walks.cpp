@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/random.h"
 #include "solvers/potential.h"
@@ -21,8 +22,8 @@ ElementWalks::Wave::Wave(std::span<const WalkStart> starts, const WalkNumbers& n
   numbers_.sequence.points_of(walk_, numbers_.first, first_);
 }
 
-void ElementWalks::Wave::keep(std::size_t from, std::size_t to) {
-  start[to] = start[from], at[to] = at[from], walk_[to] = walk_[from];
+void ElementWalks::Wave::keep(std::size_t from, std::size_t to, Index arrived) {
+  start[to] = start[from], at[to] = arrived, walk_[to] = walk_[from];
   if (!point.empty()) point[to] = point[from];
 }
 
@@ -50,7 +51,11 @@ ElementWalks::ElementWalks(const System& system, Score score)
     : system_(system),
       score_(score),
       births_(power_of(system.K.gram(), system.e)),
-      draw_(static_cast<std::size_t>(system.walks->dimensions())) {}
+      draw_(static_cast<std::size_t>(system.walks->dimensions())),
+      places_(system.e.rows(), system.e.cols() + 1) {
+  places_.leftCols(system.e.cols()) = system.R.reflectance();
+  for (Index a = 0; a < places_.rows(); ++a) places_(a, system.e.cols()) = 1 / area(a);
+}
 
 void ElementWalks::prefer_sources(const ColumnMatrix& worth) {
   const ColumnMatrix power = power_of(system_.K.gram(), system_.e);
@@ -78,6 +83,7 @@ double ElementWalks::going_on(Index at, double carried, double reflected, const 
 
 template <class Step, class Hit>
 std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) const {
+  constexpr std::size_t ahead = 16;  // places that are fetched while others are looked at
   std::uint64_t draws = 0;
   const Index columns = wave.carried.cols();
   std::vector<Index> arrived(wave.size());
@@ -87,9 +93,10 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
     draws += wave.size();
     std::size_t kept = 0;
     for (std::size_t k = 0; k < wave.size(); ++k) {
+      if (k + ahead < wave.size()) __builtin_prefetch(place(std::max<Index>(0, arrived[k + ahead])));
       const Index at = arrived[k];
       if (at == TransitionSampler::nowhere) continue;
-      const double *carried = &wave.carried(static_cast<Index>(k), 0), *rho = &system_.R.reflectance()(at, 0);
+      const double *carried = &wave.carried(static_cast<Index>(k), 0), *rho = place(at);
       double all = 0, left = 0;
       for (Index c = 0; c < columns; ++c) {
         const double value = rho[c] * carried[c];
@@ -99,14 +106,15 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
       const double on = going_on(at, all, left, reflected.data());
       const bool survives = wave.on[k] < on;
       if (score_ == Score::collision)
-        hit(wave.start[k], at, carried, 1);
+        hit(wave.start[k], at, carried, reflected.data(), 1);
       else if (survives == (score_ == Score::survival))
-        hit(wave.start[k], at, carried, 1 / (survives ? on : 1 - on));
-      if (!survives) continue;
-      wave.at[k] = at;
-      wave.keep(k, kept);
-      double* next = &wave.carried(static_cast<Index>(kept++), 0);
-      for (Index c = 0; c < columns; ++c) next[c] = reflected[static_cast<std::size_t>(c)] / on;
+        hit(wave.start[k], at, carried, reflected.data(), 1 / (survives ? on : 1 - on));
+      // Kept first and counted then: which of them goes on cannot be foretold, and a branch would be.
+      wave.keep(k, kept, at);
+      double* next = &wave.carried(static_cast<Index>(kept), 0);
+      const double by = 1 / std::max(on, std::numeric_limits<double>::min());
+      for (Index c = 0; c < columns; ++c) next[c] = by * reflected[static_cast<std::size_t>(c)];
+      kept += survives;
     }
     wave.shrink(kept);
   }
@@ -154,11 +162,10 @@ ElementWalks::Wave ElementWalks::births(std::span<const WalkStart> starts, const
 template <class Step>
 std::uint64_t ElementWalks::shoot_by(const Step& step, Wave wave, ColumnMatrix& sum) const {
   const Index columns = sum.cols();
-  return walk(std::move(wave), step, [&](Index, Index i, const double* carried, double score) {
-    const double* rho = &system_.R.reflectance()(i, 0);
+  return walk(std::move(wave), step, [&](Index, Index i, const double*, const double* reflected, double score) {
     double* to = &sum(i, 0);
-    const double share = score / area(i);
-    for (Index c = 0; c < columns; ++c) to[c] += share * rho[c] * carried[c];
+    const double share = score * place(i)[columns];
+    for (Index c = 0; c < columns; ++c) to[c] += share * reflected[c];
   });
 }
 
@@ -174,7 +181,7 @@ std::uint64_t ElementWalks::shoot_on(std::span<const WalkStart> starts, const Wa
                   births(starts, numbers), sum);
 }
 
-/// hit(start, at, carried, score), carried with the reflectance at the start.
+/// What is carried has the reflectance at the start.
 template <class Hit>
 std::uint64_t ElementWalks::gather_by(std::span<const WalkStart> starts, const WalkNumbers& numbers,
                                       const Hit& hit) const {
@@ -188,7 +195,7 @@ std::uint64_t ElementWalks::gather_by(std::span<const WalkStart> starts, const W
 std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const WalkNumbers& numbers,
                                    const Scored& scored) const {
   Row of_one(system_.e.cols());
-  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, double score) {
+  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, const double*, double score) {
     for (Index c = 0; c < of_one.size(); ++c) of_one(c) = score * carried[c] * system_.e(at, c);
     scored(start, of_one, at);
   });
@@ -197,7 +204,7 @@ std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const Walk
 std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const WalkNumbers& numbers,
                                    ColumnMatrix& sum) const {
   const Index columns = sum.cols();
-  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, double score) {
+  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, const double*, double score) {
     const double* e = system_.e.data() + at * system_.e.outerStride();
     double* to = &sum(start, 0);
     for (Index c = 0; c < columns; ++c) to[c] += score * carried[c] * e[c];

@@ -77,7 +77,7 @@ class ElementWalks {
   struct Wave {
     Wave(std::span<const WalkStart> starts, const WalkNumbers& numbers, Index columns);
     std::size_t size() const { return at.size(); }
-    void keep(std::size_t from, std::size_t to);  ///< but for what it carries
+    void keep(std::size_t from, std::size_t to, Index arrived);  ///< but for what it carries
     void shrink(std::size_t size);
     /// The next numbers of each, `count` a walk.
     void draw(std::size_t count, std::vector<double>& u);
@@ -103,8 +103,11 @@ class ElementWalks {
   void step_between_elements(Wave& wave, std::span<Index> arrived) const;
   void step_between_points(Wave& wave, std::span<Index> arrived) const;
 
-  /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, score) is told where
-  /// one scores and of the columns that it carries, score having the mean 1.
+  /// The reflectance of an unknown's columns, and the reciprocal of its area.
+  const double* place(Index a) const { return places_.data() + a * places_.cols(); }
+
+  /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, reflected, score) is
+  /// told where one scores, and of the columns that it carries and would carry on, score having the mean 1.
   template <class Step, class Hit>
   std::uint64_t walk(Wave wave, const Step& step, const Hit& hit) const;
   template <class Step>
@@ -116,6 +119,7 @@ class ElementWalks {
   Score score_;
   PowerDraw births_;
   std::size_t draw_;
+  ColumnMatrix places_;
   ColumnMatrix worth_;  ///< of ways, over that of a walk at its birth; empty: they go on by rho
 };
 
