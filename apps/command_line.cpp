@@ -100,7 +100,8 @@ void add_trace(CLI::App& app, Command& chosen) {
                    "Picture to write: .exr (radiance, with standard errors) or .png; the other is "
                    "written beside it")
       ->required();
-  command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv");
+  command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
+      ->check(named("a folder"));
   add_accuracy(*command, options->accuracy, "those estimates");
   add_intersector(*command, options->intersector, "Ray caster");
 }
@@ -112,6 +113,7 @@ void add_view_factors(CLI::App& app, Command& chosen) {
       core::format("interflect view-factors %s -o F.h5 --element-size 0.1", example_scene), view_factors, options,
       chosen);
   command->add_option("FILE", options->input, "OBJ, PLY, STL, glTF, VTU, VTP, View3D's .vs3, or a scene (.json)")
+      ->check(named("a file"))
       ->required();
   CLI::Option* out = command
                          ->add_option("-o,--out", options->out,
@@ -132,9 +134,7 @@ void add_view_factors(CLI::App& app, Command& chosen) {
   command
       ->add_option("--view-of", options->view_of,
                    "Also F.view.vtu and F.view.png: of every element the view factor to this surface or group")
-      ->check([](const std::string& name) {
-        return std::string(name.empty() ? "the name of a surface or group is expected" : "");
-      });
+      ->check(named("a surface or group"));
   command->add_option("--groups", options->groups, "Sum the factors of a .csv by this")
       ->check(CLI::IsMember({"surface", "group", "material"}));
 }
@@ -169,8 +169,10 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
   add_folder(*command, options->out, "the table and the plots");
   command->add_option("--solvers", options->solvers, "Which ones; default: all but `automatic`, which is one of them")
       ->check(CLI::IsMember(solvers::solver_names()));
-  command->add_option("--goal", options->goal,
-                      "One number that is asked for: a sensor, a surface, or camera:NAME; errors are of it then");
+  command
+      ->add_option("--goal", options->goal,
+                   "One number that is asked for: a sensor, a surface, or camera:NAME; errors are of it then")
+      ->check(named("a sensor, a surface or a camera"));
   add_equations(*command, options->settings);
 }
 
@@ -182,9 +184,13 @@ void add_dim(CLI::App& app, Command& chosen) {
                               "data/scenes/office.json -o out/office "
                               "--light-groups",
                               dim, options, chosen);
-  command->add_option("SOLUTION", options->solution, "Folder of a solve --light-groups")->required();
+  command->add_option("SOLUTION", options->solution, "Folder of a solve --light-groups")
+      ->check(named("a folder"))
+      ->required();
   command->add_option("--group", options->groups, "NAME=PART of its full output, 0.4 or 40%; of others all");
-  command->add_option("-o,--out", options->out, "Folder for the results")->default_str("SOLUTION/dimmed");
+  command->add_option("-o,--out", options->out, "Folder for the results")
+      ->check(named("a folder"))
+      ->default_str("SOLUTION/dimmed");
   add_no_pictures(*command, options->pictures);
 }
 

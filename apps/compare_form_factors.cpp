@@ -75,7 +75,7 @@ void write_plot(const std::filesystem::path& file, const std::vector<MethodScore
 }  // namespace
 
 ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const CommonOptions& common, Run& run) {
-  const scene::Scene scene = read_and_note(options.scene, SceneUse::exchange);
+  const scene::Scene scene = read_to_solve(options.scene, SceneUse::exchange);
   fem::RadiositySettings settings;
   settings.element_size = options.element_size;
   const mesh::ElementMesh mesh = fem::elements_of(scene, settings);

@@ -47,7 +47,20 @@ const SolverScore::At* first_below(const SolverScore& score, double error, bool 
   return nullptr;
 }
 
+/// It does not take the operator, and `why` is a sentence.
+bool refused(const SolverScore& score) {
+  return score.history.empty() && score.why != solvers::describe(solvers::SolverReport::Stopped::nothing_to_do);
+}
+
 constexpr double milestones[] = {0.1, 1e-2, 1e-6};
+
+/// Why, a line each: below the table, whose column it would make as wide as a sentence.
+std::string refusals_text(const fem::SolverComparison& comparison) {
+  std::string text;
+  for (const SolverScore& score : comparison.scores)
+    if (refused(score)) text += "refused: " + score.why + "\n";
+  return text;
+}
 
 std::string table_of(const fem::SolverComparison& comparison) {
   Table table({"solver", "sweeps to 10 %", "1 %", "1e-6", "seconds to 1e-6", "error", "time s", "stopped"});
@@ -64,10 +77,10 @@ std::string table_of(const fem::SolverComparison& comparison) {
     row.push_back(last ? core::format("%.3g", last->seconds) : "-");
     row.push_back(score.history.empty() ? "-" : core::format("%.2g", score.history.back().error));
     row.push_back(score.history.empty() ? "-" : core::format("%.3g", score.history.back().seconds));
-    row.push_back(score.why);
+    row.push_back(refused(score) ? "refused" : score.why);
     table.add(std::move(row));
   }
-  return table.text();
+  return table.text() + refusals_text(comparison);
 }
 
 results::Record record_of(const fem::SolverComparison& comparison) {
@@ -126,7 +139,7 @@ bool is_compared(const std::string& solver, bool with_goal) {
 }  // namespace
 
 ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOptions& common, Run& run) {
-  const scene::Scene scene = read_and_note(options.scene);
+  const scene::Scene scene = read_to_solve(options.scene);
   std::optional<fem::Goal> goal;
   if (!options.goal.empty()) goal = goal_named(options.goal, scene, measure::sensor_points(scene));
   const results::OutputDirectory folder(options.out);

@@ -144,7 +144,7 @@ void warn_of(const scene::Scene& scene, const ThermalExchange& exchange, const f
 }  // namespace
 
 ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common, Run& run) {
-  const scene::Scene scene = read_and_note(options.scene, SceneUse::exchange);
+  const scene::Scene scene = read_to_solve(options.scene, SceneUse::exchange);
   warn_of_contacts(scene, *raycast::make_ray_caster("brute", scene));
   const results::OutputDirectory folder(options.out);
   const ThermalExchange found = fem::solve_exchange(scene, options.settings, options.environment, run);

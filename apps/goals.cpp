@@ -1,5 +1,9 @@
 #include "apps/goals.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
 #include "apps/table.h"
 #include "core/error.h"
 #include "core/format.h"
@@ -23,6 +27,26 @@ std::string names_known(const scene::Scene& scene) {
   return known + "or the name of a surface";
 }
 
+/// A number as it is told, with an error that holds of what is told.
+struct Told {
+  std::string value;
+  double error;
+};
+/// In five digits, or in as many as its error is worth: rounding is to be a small part of that.
+Told told(double value, double error) {
+  constexpr int fewest = 5, most = 12;
+  const double ratio = std::abs(value) / error;  // not finite where one of them is 0 or unknown
+  const int worth = std::isfinite(ratio) && ratio > 1 ? static_cast<int>(std::ceil(std::log10(ratio))) + 2 : fewest;
+  std::string text = core::format("%.*g", std::clamp(worth, fewest, most), value);
+  const double rounding = std::abs(std::strtod(text.c_str(), nullptr) - value);
+  return {std::move(text), error + rounding};
+}
+
+/// "0.26 %" of a positive value; "-" of others.
+std::string part_text(double error, double value) {
+  return value > 0 ? core::format("%.2g %%", core::rounded_up(100 * error / value, 2)) : "-";
+}
+
 bool in_view(const fem::Goal& goal) { return std::holds_alternative<fem::Goal::InView>(goal.what); }
 
 }  // namespace
@@ -44,12 +68,10 @@ fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::sp
 
 std::string goal_line(const std::string& quantity, double value, double error, const char* unit,
                       std::optional<double> proved) {
-  const std::string told = core::format("%.5g", value);
-  const double rounding = std::abs(std::strtod(told.c_str(), nullptr) - value),
-               bound = proved.value_or(error) + rounding;
-  const std::string part = value > 0 ? core::format("%.2g %%, ", core::rounded_up(100 * bound / value, 2)) : "";
+  const auto [text, bound] = told(value, proved.value_or(error));
+  const std::string part = value > 0 ? part_text(bound, value) + ", " : "";
   const std::string claim = proved ? core::format("guaranteed; estimated %.2g", error) : "estimated";
-  return core::format("%s = %s %s, error <= %.2g %s (%s%s)", quantity.c_str(), told.c_str(), unit,
+  return core::format("%s = %s %s, error <= %.2g %s (%s%s)", quantity.c_str(), text.c_str(), unit,
                       core::rounded_up(bound, 2), unit, part.c_str(), claim.c_str());
 }
 
@@ -60,10 +82,11 @@ std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scen
   Table table({"pass", "elements", "unknowns", quantity, "error", "relative", "time"});
   for (std::size_t k = 0; k < adaptation.passes.size(); ++k) {
     const fem::AdaptivePass& pass = adaptation.passes[k];
-    table.add({std::to_string(k + 1), core::format("%td", pass.elements), core::format("%td", pass.unknowns),
-               core::format("%.6g", scene.weigh(pass.value)),
-               core::format("%.2g", core::rounded_up(scene.weigh(pass.error), 2)),
-               core::format("%.2g %%", core::rounded_up(100 * pass.relative, 2)), core::format_duration(pass.seconds)});
+    const double value = scene.weigh(pass.value);
+    const auto [text, error] = told(value, scene.weigh(pass.error));
+    table.add({std::to_string(k + 1), core::format("%td", pass.elements), core::format("%td", pass.unknowns), text,
+               core::format("%.2g", core::rounded_up(error, 2)), part_text(error, value),
+               core::format_duration(pass.seconds)});
   }
   const fem::AdaptivePass& last = adaptation.passes.back();
   return table.text() + "stopped     " + describe(adaptation.why) + "\n" +

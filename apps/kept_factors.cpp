@@ -6,6 +6,7 @@
 
 #include "apps/factor_closure.h"
 #include "core/error.h"
+#include "core/log.h"
 #include "results/factor_export.h"
 #include "results/output_directory.h"
 #include "results/record.h"
@@ -149,6 +150,12 @@ fem::ToleranceReport repaired_factors(const Job& job) {
   return report;
 }
 
+/// Of a run that was stopped.
+void say_what_is_kept(const std::filesystem::path& file) {
+  if (results::begun_bytes(file) > 0)
+    core::log::shortfall("what was computed is in " + file.string() + ".partial: the same command goes on from there");
+}
+
 }  // namespace
 
 double bytes_of(const ViewFactorOptions& options, const FactorRequest& request) {
@@ -159,9 +166,12 @@ double bytes_of(const ViewFactorOptions& options, const FactorRequest& request) 
 }
 
 KeptFactors keep_factors(const ViewFactorOptions& options, const FactorRequest& request, const FactorWork& work,
-                         Run& run) {
+                         Run& run) try {
   const Job job{store_of(options), options, request, work, run};
   return {job.file, options.closure == "none" ? computed_factors(job) : repaired_factors(job)};
+} catch (const core::Interrupted&) {
+  say_what_is_kept(store_of(options));
+  throw;
 }
 
 }  // namespace interflect::apps

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/heeded_options.h"
 #include "apps/option_validators.h"
 #include "core/format.h"
 #include "core/sample_sequence.h"
@@ -10,31 +11,6 @@
 
 namespace interflect::apps {
 namespace {
-
-/// Of the methods that a setting changes something of: "hemicube, single-plane".
-std::string names_of(fem::Setting setting) {
-  std::string names;
-  for (const std::string& name : fem::form_factor_names())
-    if (fem::setting_of(name) == setting) names += (names.empty() ? "" : ", ") + name;
-  return names;
-}
-
-/// Settings that change nothing are mistakes: of the method, or of what one expects of it.
-void require_heeded(const CLI::Option& option, const std::string& method, fem::Setting setting) {
-  if (!option.empty() && fem::setting_of(method) != setting)
-    throw CLI::ValidationError(option.get_name(),
-                               "form factors by " + method + " do not heed it: --form-factors " + names_of(setting));
-}
-
-/// Where view factors come from a file, settings of how they are found change nothing.
-void require_computed(const CLI::App& command) {
-  const CLI::Option* factors = command.get_option_no_throw("--factors");
-  if (!factors || factors->empty()) return;
-  for (const char* name : {"--form-factors", "--quadrature-tolerance", "--samples", "--resolution", "--visibility-rays",
-                           "--visibility-error"})
-    if (!command.get_option(name)->empty())
-      throw CLI::ValidationError(name, "the view factors of a file do not heed it: without it, or without --factors");
-}
 
 /// Where the options of how much a form-factor method does go.
 struct EffortOptions {
@@ -46,34 +22,25 @@ struct EffortOptions {
 };
 
 void add_effort(CLI::App& command, const EffortOptions& options) {
-  const CLI::Option* samples =
-      command
-          .add_option("--samples", options.samples,
-                      "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
-          ->transform(count(1e15))
-          ->capture_default_str();
-  const CLI::Option* cells =
-      command.add_option("--resolution", options.resolution, "Cells across a hemicube or a plane")
-          ->check(CLI::Range(2, 8192))
-          ->capture_default_str();
-  const CLI::Option* rays = command
-                                .add_option("--visibility-rays", options.visibility_rays,
-                                            "Of gauss-lambert and duffy: for a pair that something may hide")
-                                ->check(CLI::Range(4, 65536))
-                                ->capture_default_str();
-  const CLI::Option* error =
-      command
-          .add_option("--visibility-error", options.visibility_error,
-                      "Of the same: more rays, until the standard error of the part of a pair that is seen is below")
-          ->transform(fraction(1e-3, 0.5))
-          ->default_str("none: as many rays as were asked for");
-  command.parse_complete_callback([samples, cells, rays, error, &command, &method = options.method] {
-    require_computed(command);
-    require_heeded(*samples, method, fem::Setting::samples);
-    require_heeded(*cells, method, fem::Setting::resolution);
-    require_heeded(*rays, method, fem::Setting::rays);
-    require_heeded(*error, method, fem::Setting::rays);
-  });
+  command
+      .add_option("--samples", options.samples,
+                  "Of Monte Carlo methods: a pair, a row, or in all; 0: as the tolerance asks")
+      ->transform(count(1e15))
+      ->capture_default_str();
+  command.add_option("--resolution", options.resolution, "Cells across a hemicube or a plane")
+      ->check(CLI::Range(2, 8192))
+      ->capture_default_str();
+  command
+      .add_option("--visibility-rays", options.visibility_rays,
+                  "Of gauss-lambert and duffy: for a pair that something may hide")
+      ->check(CLI::Range(4, 65536))
+      ->capture_default_str();
+  command
+      .add_option("--visibility-error", options.visibility_error,
+                  "Of the same: more rays, until the standard error of the part of a pair that is seen is below")
+      ->transform(fraction(1e-3, 0.5))
+      ->default_str("none: as many rays as were asked for");
+  refuse_what_is_not_heeded(command, options.method);
 }
 
 CLI::Option* add_row_tolerance(CLI::App& command, double& tolerance) {
@@ -112,13 +79,15 @@ void add_goal(CLI::App& command, SolveOptions& options, const CLI::Option* metho
           },
           "Make elements for a goal, pass after pass, until its error is estimated below this part of it, such as 1%")
       ->transform(fraction());
-  command.add_option_function<std::string>(
-      "--goal",
-      [&options, polynomials](const std::string& goal) {
-        options.goal = goal;
-        polynomials(1);
-      },
-      "Whose error counts: a sensor, a surface, or camera:NAME; default: all sensors");
+  command
+      .add_option_function<std::string>(
+          "--goal",
+          [&options, polynomials](const std::string& goal) {
+            options.goal = goal;
+            polynomials(1);
+          },
+          "Whose error counts: a sensor, a surface, or camera:NAME; default: all sensors")
+      ->check(named("a sensor, a surface or a camera"));
 }
 
 /// Whose functions are linear unless --order says otherwise, and constants at centroids; by analytic form factors.
@@ -221,15 +190,15 @@ void add_common(CLI::App& app, CommonOptions& common) {
 }
 
 void add_scene(CLI::App& command, std::filesystem::path& scene) {
-  command.add_option("SCENE", scene, "Scene file (docs/scene.md)")->required();
+  command.add_option("SCENE", scene, "Scene file (docs/scene.md)")->check(named("a scene file"))->required();
 }
 
 void add_camera(CLI::App& command, std::string& camera) {
-  command.add_option("--camera", camera, "Camera of the scene; default: its first");
+  command.add_option("--camera", camera, "Camera of the scene; default: its first")->check(named("a camera"));
 }
 
 CLI::Option* add_folder(CLI::App& command, std::filesystem::path& out, const std::string& what) {
-  return command.add_option("-o,--out", out, "Folder for " + what)->required();
+  return command.add_option("-o,--out", out, "Folder for " + what)->check(named("a folder"))->required();
 }
 
 void add_no_pictures(CLI::App& command, bool& pictures) {
@@ -309,9 +278,10 @@ void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
   order->default_str("0; 1 with --goal or a linear --projection, 2 with --target-error");
   add_goal(command, options, method, order);
   add_projection(command, s, method, order);
-  command.add_option(
-      "--factors", options.factors,
-      "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ");
+  command
+      .add_option("--factors", options.factors,
+                  "View factors of an earlier view-factors --element-size run: only lights and reflectances may differ")
+      ->check(named("a file"));
   add_quadrature_tolerance(command, s.quadrature_tolerance, "an unoccluded form factor");
   add_solver(command, s);
   add_intersector(command, s.intersector, "Ray caster; brute is slow, double precision, for checking");
@@ -345,6 +315,7 @@ void add_equations(CLI::App& command, fem::RadiositySettings& s) {
   add_quadrature_tolerance(command, s.quadrature_tolerance, "an unoccluded form factor");
   add_drop_below(command, s.drop_below);
   add_solver_settings(command, s);
+  refuse_what_is_not_heeded(command, s.form_factors);
 }
 
 }  // namespace interflect::apps

@@ -32,8 +32,8 @@ void add_closure(CLI::App& command, std::string& closure);
 void add_intersector(CLI::App& command, std::string& intersector, const std::string& description);
 void add_accuracy(CLI::App& command, double& accuracy, const std::string& of);
 
-/// How much a form-factor method does: a row's error, samples, cells, rays.  Those that the method does not heed are
-/// refused.
+/// How much a form-factor method does: a row's error, samples, cells, rays.  What is not heeded is refused
+/// (heeded_options.h).
 void add_effort(CLI::App& command, fem::RadiositySettings& settings);
 void add_effort(CLI::App& command, ViewFactorOptions& options);
 

@@ -23,6 +23,10 @@ CLI::Validator fraction(double low, double high) {
   return {[=](std::string& text) { return to_fraction(text, low, high); },
           core::format("PART in [%g %%, %g %%]", 100 * low, 100 * high)};
 }
+CLI::Validator named(const std::string& what) {
+  return {[=](std::string& text) { return std::string(text.empty() ? "the name of " + what + " is expected" : ""); },
+          ""};
+}
 CLI::Validator seed() { return {no_seed, "NUMBER"}; }
 
 }  // namespace interflect::apps

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class Validator;
 }
@@ -15,5 +17,7 @@ CLI::Validator length();
 CLI::Validator fraction();
 CLI::Validator fraction(double low, double high);
 CLI::Validator seed();
+/// Not "", as a variable that is not set leaves it, which would pass for none given.
+CLI::Validator named(const std::string& what);
 
 }  // namespace interflect::apps

@@ -47,10 +47,11 @@ constexpr double seconds_an_element = 0.1;
 
 double roughly_seconds_of_bounds(double elements, unsigned threads) { return seconds_an_element * elements / threads; }
 
-std::string bounds_forecast_text(double elements, unsigned threads) {
-  const double seconds = roughly_seconds_of_bounds(elements, threads);
-  return core::format("; bounds very roughly %s more (a fifth in an empty room, four times as much in an open scene)",
-                      core::format_duration(seconds).c_str());
+std::string bounds_forecast_text(std::optional<double> elements, unsigned threads) {
+  const double seconds = roughly_seconds_of_bounds(elements.value_or(100), threads);
+  return core::format("; bounds very roughly %s more%s (a fifth in an empty room, four times as much in an open scene)",
+                      core::format_duration(seconds).c_str(),
+                      elements ? "" : " for every hundred elements of the last pass");
 }
 
 std::unique_ptr<ProvedBounds> proved_bounds(const SolvedScene& solved, double max_memory, Run& run) {

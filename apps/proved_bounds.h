@@ -19,8 +19,8 @@ struct ProvedBounds {
 
 /// What bounds take beside the solve, which differs between scenes by a factor of 20: very roughly.
 double roughly_seconds_of_bounds(double elements, unsigned threads);
-/// "; bounds very roughly 50 s more (...)"
-std::string bounds_forecast_text(double elements, unsigned threads);
+/// "; bounds very roughly 50 s more (...)", of so many elements, or of every hundred of them.
+std::string bounds_forecast_text(std::optional<double> elements, unsigned threads);
 
 /// Nothing where the run was stopped, which is said: the solution is worth keeping without.
 /// @throws core::InputError  where there are none to be had

@@ -6,11 +6,32 @@
 
 namespace interflect::apps {
 
-scene::Scene read_and_note(const std::filesystem::path& file, SceneUse use) {
+namespace {
+
+scene::Scene read(const std::filesystem::path& file, SceneUse use) {
   scene::Scene scene = scene::read_scene(file);
   if (use == SceneUse::light) scene::warn_of_darkness(scene);
+  return scene;
+}
+
+void say_notes(const scene::Scene& scene) {
   for (const scene::Note& note : scene.repairs) core::log::info(note.line());
   for (const scene::Note& note : scene.warnings) core::log::warning(note.line());
+}
+
+}  // namespace
+
+scene::Scene read_and_note(const std::filesystem::path& file, SceneUse use) {
+  scene::Scene scene = read(file, use);
+  say_notes(scene);
+  return scene;
+}
+
+scene::Scene read_to_solve(const std::filesystem::path& file, SceneUse use, scene::Twice may_be) {
+  scene::Scene scene = read(file, use);
+  for (const auto& found : scene::require_each_place_once(scene, may_be))
+    scene.warnings.push_back({scene.file.string(), scene::overlap_text(found) + ": that part counts twice"});
+  say_notes(scene);
   return scene;
 }
 

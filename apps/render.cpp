@@ -3,7 +3,6 @@
 
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
-#include "apps/read_scene.h"
 #include "apps/solution_files.h"
 #include "core/format.h"
 #include "results/image_file.h"
@@ -45,7 +44,7 @@ results::Record record_of(const Rendered& r) {
 ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run& run) {
   if (options.solve.forecast_only) return print_forecast(options.solve, common, run);
   results::require_image_extension(options.image);
-  scene::Scene read = read_and_note(options.solve.scene);
+  scene::Scene read = scene_to_solve(options.solve);
   const scene::CameraId camera = camera_named(read, options.camera);  // before the work
   SolveOptions of_solve = options.solve;
   of_solve.out = options.image.has_parent_path() ? options.image.parent_path() : ".";

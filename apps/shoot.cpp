@@ -184,7 +184,7 @@ class Shooting {
 }  // namespace
 
 ExitStatus shoot(const ShootOptions& options, const CommonOptions& common, Run& run) {
-  scene::Scene scene = read_and_note(options.scene);
+  scene::Scene scene = read_to_solve(options.scene);
   auto points = measure::sensor_points(scene);
   SolvedScene solved(std::move(scene), {}, fem::RadiositySolution(mesh::ElementMesh({}), 0));
   solved.points = std::move(points);

@@ -4,16 +4,13 @@
 #include "apps/equation_residual.h"
 #include "apps/light_group_files.h"
 #include "apps/proved_bounds.h"
-#include "apps/read_scene.h"
 #include "apps/solution_files.h"
 
 namespace interflect::apps {
 
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run) {
   if (options.forecast_only) return print_forecast(options, common, run);
-  scene::Scene scene = read_and_note(options.scene);
-  if (options.bounds) fem::require_no_place_twice(scene);  // before the work
-  const auto solved = solve_scene(std::move(scene), options, common, run);
+  const auto solved = solve_scene(scene_to_solve(options), options, common, run);
   if (options.bounds) {
     solved->bounds = proved_bounds(*solved, options.settings.max_memory, run);
     if (!solved->bounds) solved->warnings.emplace_back("stopped before its bounds were found: there are none");

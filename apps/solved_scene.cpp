@@ -17,6 +17,8 @@ namespace {
 
 constexpr double noticeable_on_backs = 1e-3;   ///< of the emitted flux: docs/scene.md promises a warning above it
 constexpr double noticeable_imbalance = 5e-3;  ///< of the emitted flux, lost or made by form factors
+constexpr const char* coincidence =
+    ": do faces coincide, meet at a few degrees, or lie closer than elements are long?  See interflect check";
 
 /// K of a file, for the geometry that it is of.
 auto factors_from(const std::filesystem::path& file) {
@@ -69,6 +71,35 @@ double negative_share(const SolvedScene& solved) {
   return area > 0 ? negative / area : 0;
 }
 
+/// Flux of pairs that --drop-below left out [W | lm]: if all elements sent the same, and if each lacked the largest part
+/// that any does.
+struct Dropped {
+  double about = 0, most = 0;
+};
+Dropped dropped_flux(const scene::Scene& scene, const fem::RadiositySolution& solution) {
+  if (solution.closure_correction > 0) return {};  // made up for
+  double leaving = 0;
+  for (std::size_t i = 0; i < solution.radiosity.size(); ++i)
+    leaving += solution.mesh.patches()[i].area * scene.weigh(solution.radiosity[i]);
+  return {solution.mean_dropped * leaving, solution.largest_dropped * leaving};
+}
+
+/// What form factors lose, and by what: pairs left out, if that is most of it, or geometry beside them.
+std::string lost_text(const scene::Scene& scene, const fem::RadiositySolution& solution, double lost, double noise) {
+  const double emitted = scene.weigh(solution.energy.emitted);
+  const auto part = [&](double flux) { return core::format_percent(flux / emitted); };
+  const Dropped dropped = dropped_flux(scene, solution);
+  const std::string loss = "form factors lose " + part(lost) + " of the emitted flux";
+  if (!(dropped.about > 0)) return loss + coincidence;
+  if (2 * dropped.about >= lost - noise)
+    return loss + core::format(
+                      ", likely by the pairs that --drop-below leaves out (%.2g of sum_j F_ij in the mean): a smaller "
+                      "one leaves out less, and --closure makes up for it",
+                      solution.mean_dropped);
+  return loss + " (pairs that --drop-below leaves out: some " + part(dropped.about) + " of the emitted flux, at most " +
+         part(dropped.most) + ")" + coincidence;
+}
+
 /// What the solution shows to be odd.
 std::vector<std::string> warnings_of(const SolvedScene& solved) {
   std::vector<std::string> warnings = blind_sensors(solved);
@@ -91,12 +122,12 @@ std::vector<std::string> energy_warnings(const scene::Scene& scene, const fem::R
   if (on_backs - normal_95 * scene.weigh(solution.energy.on_backs_error) > noticeable_on_backs * emitted)
     warnings.push_back("black backs absorb " + core::format_percent(on_backs / emitted) +
                        " of the emitted flux: is a surface flipped?  interflect check tells which");
-  const double imbalance = scene.weigh(solution.energy.form_factor_error);
-  if (std::abs(imbalance) - normal_95 * scene.weigh(solution.energy.split_error) > noticeable_imbalance * emitted)
-    warnings.push_back(
-        core::format("form factors %s %s of the emitted flux: do faces coincide, meet at a few degrees, or lie closer "
-                     "than elements are long?  See interflect check",
-                     imbalance > 0 ? "lose" : "make up", core::format_percent(std::abs(imbalance) / emitted).c_str()));
+  const double imbalance = scene.weigh(solution.energy.form_factor_error),
+               noise = normal_95 * scene.weigh(solution.energy.split_error);
+  if (std::abs(imbalance) - noise <= noticeable_imbalance * emitted) return warnings;
+  warnings.push_back(imbalance > 0 ? lost_text(scene, solution, imbalance, noise)
+                                   : "form factors make up " + core::format_percent(-imbalance / emitted) +
+                                         " of the emitted flux" + coincidence);
   return warnings;
 }
 
@@ -134,14 +165,25 @@ results::Record forecast_record(const fem::Forecast& forecast) {
   return record.add("bytes", forecast.bytes).add("seconds", forecast.seconds);
 }
 
+/// Not known where they are made for a goal.
+static std::optional<double> elements_to_bound(const fem::Forecast& forecast, const SolveOptions& options) {
+  return options.target_error > 0 ? std::nullopt : std::optional(forecast.elements);
+}
+
+scene::Scene scene_to_solve(const SolveOptions& options) {
+  return read_to_solve(options.scene, SceneUse::light,
+                       options.bounds ? scene::Twice::nothing : scene::Twice::parts_of_a_surface);
+}
+
 ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {
-  const scene::Scene scene = read_and_note(options.scene);
+  const scene::Scene scene = scene_to_solve(options);
   const fem::Forecast forecast = fem::forecast(scene, settings_of(options, scene, measure::sensor_points(scene)), run);
   results::Record record = forecast_record(forecast);
   std::string text = (options.target_error > 0 ? "first pass: " : "") + describe(forecast);
   if (options.bounds) {
-    record.add("bounds_seconds", roughly_seconds_of_bounds(forecast.elements, run.threads.count()));
-    text += bounds_forecast_text(forecast.elements, run.threads.count());
+    const std::optional<double> elements = elements_to_bound(forecast, options);
+    if (elements) record.add("bounds_seconds", roughly_seconds_of_bounds(*elements, run.threads.count()));
+    text += bounds_forecast_text(elements, run.threads.count());
   }
   std::printf("%s\n", common.json ? results::json_text(record).c_str() : text.c_str());
   return success;
@@ -168,7 +210,9 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
                            settings.adaptive->goal.name.c_str(), 100 * options.target_error)
             : "";
     std::printf("bounding box %s\n%s%s%s\n", box_text(scene).c_str(), plan.c_str(), describe(forecast).c_str(),
-                options.bounds ? bounds_forecast_text(forecast.elements, asked.threads.count()).c_str() : "");
+                options.bounds
+                    ? bounds_forecast_text(elements_to_bound(forecast, options), asked.threads.count()).c_str()
+                    : "");
   }
   std::fflush(stdout);
   auto solution = fem::solve_radiosity(scene, settings, asked);

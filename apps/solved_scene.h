@@ -56,6 +56,9 @@ std::vector<Estimate> answers_at(std::span<const measure::SensorPoint> points, c
 std::string describe(const fem::Forecast& forecast);
 results::Record forecast_record(const fem::Forecast& forecast);
 
+/// Read to be solved; for bounds nothing may be there twice.
+scene::Scene scene_to_solve(const SolveOptions& options);
+
 /// With --forecast, what the solve will need is the result.
 ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run);
 

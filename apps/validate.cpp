@@ -3,7 +3,6 @@
 #include "apps/commands.h"
 #include "apps/pictures.h"
 #include "apps/questions.h"
-#include "apps/read_scene.h"
 #include "apps/solution_files.h"
 #include "apps/validation_files.h"
 #include "core/error.h"
@@ -57,13 +56,6 @@ validation::EnergyBalance traced_energy(const SolvedScene& solved, std::span<con
   return validation::sampled_energy(solved.scene.emitted_flux(), areas, reflectances, irradiance);
 }
 
-/// What the statistics cannot know, as one more reason.
-void add_reason(const std::string& reason, Certificate& certificate) {
-  if (certificate.passed) certificate.verdict = "Not validated: " + reason + "; " + certificate.verdict;
-  certificate.passed = false;
-  certificate.reasons.push_back(reason);
-}
-
 Certificate certified(const SolvedScene& solved, std::span<const Judged> judged, double accuracy, const Run& run) {
   validation::Settings settings;
   settings.reference_limit = accuracy_of_norms * accuracy;
@@ -97,7 +89,7 @@ std::string tracing_text(const Questions& questions, const ValidateOptions& opti
 
 /// With --forecast, what the solve and the tracing will need is the result; the pictures come on top.
 ExitStatus print_forecast(const ValidateOptions& options, const CommonOptions& common, Run& run) {
-  const scene::Scene scene = read_and_note(options.solve.scene);
+  const scene::Scene scene = scene_to_solve(options.solve);
   const fem::Forecast solve = fem::forecast(scene, options.solve.settings, run);
   const mesh::ElementMesh mesh = fem::elements_of(scene, options.solve.settings);
   const Questions questions = questions_of(scene, mesh, measure::sensor_points(scene), options, run.seed);
@@ -128,7 +120,7 @@ std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOpt
 
 ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run) {
   if (options.solve.forecast_only) return print_forecast(options, common, run);
-  const auto solved = solve_scene(read_and_note(options.solve.scene), options.solve, common, run);
+  const auto solved = solve_scene(scene_to_solve(options.solve), options.solve, common, run);
   write_solution(*solved, options.solve, common, run);
   const bool talk = !common.json && !common.quiet;
   if (talk) std::printf("%s", solution_text(*solved).c_str());

@@ -97,7 +97,7 @@ results::Record write_records(const SolvedScene& solved, std::span<const Judged>
 }
 
 std::string certificate_text(const Certificate& certificate) {
-  Table table({"irradiance", "agree", "L2, 95 % interval", "L1", "max", "reference"});
+  Table table({"irradiance", "agree", "L2, 95 % interval", "L1", "max, of mean H", "reference"});
   for (const validation::Judgement& j : certificate.judgements)
     for (const auto& [what, norms] : {std::pair{"", &j.norms()}, {", not emitting", &dark_norms(j)}})
       table.add({j.reading.name + what, core::format("%.1f %%", 100 * j.comparison.share), interval_text(norms->l2),
@@ -105,7 +105,7 @@ std::string certificate_text(const Certificate& certificate) {
                  core::format_percent(norms->reference_error)});
   std::string text = "\n" + table.text() + "\n";
   if (!certificate.worst_surface.empty())
-    text += core::format("worst surface: %s, %+.2f %%\n", certificate.worst_surface.c_str(),
+    text += core::format("worst surface: %s, %+.2f %% of its own H\n", certificate.worst_surface.c_str(),
                          100 * certificate.worst_surface_difference);
   for (const validation::ExpectedCheck& e : certificate.expected) text += expected_text(e);
   for (const std::string& reason : certificate.reasons) text += "not validated: " + reason + "\n";

@@ -1,14 +1,39 @@
 #include "core/log.h"
 
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+
+#include <memory>
+#include <mutex>
+#include <utility>
 
 namespace interflect::core::log {
 namespace {
 
+/// A warning that is the last one again, of a method that is tried anew with other settings, says nothing new.
+class WithoutRepeats final : public spdlog::sinks::base_sink<std::mutex> {
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    std::string text(message.payload.data(), message.payload.size());
+    if (message.level == spdlog::level::warn && text == last_) return;
+    last_ = std::move(text);
+    to_.log(message);
+  }
+  void flush_() override { to_.flush(); }
+  void set_pattern_(const std::string& pattern) override { to_.set_pattern(pattern); }
+  void set_formatter_(std::unique_ptr<spdlog::formatter> formatter) override {
+    to_.set_formatter(std::move(formatter));
+  }
+
+ private:
+  spdlog::sinks::stderr_color_sink_mt to_;
+  std::string last_;
+};
+
 spdlog::logger& logger() {
   static const std::shared_ptr<spdlog::logger> instance = [] {
-    auto made = std::make_shared<spdlog::logger>("interflect", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+    auto made = std::make_shared<spdlog::logger>("interflect", std::make_shared<WithoutRepeats>());
     made->set_pattern("%^%l%$: %v");
     return made;
   }();

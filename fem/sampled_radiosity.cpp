@@ -156,7 +156,7 @@ double rounds_to_come(const std::vector<solvers::IterationRecord>& history, doub
 
 /// By a first round, and where that is over soon by those of a second.
 double seconds_of_a_solve(const Sampling& sampling, const solvers::StoppingRule& rule, const Run& run) {
-  constexpr double enough = 1;
+  constexpr double enough = 0.25;
   Run trial = run.to_the_end();
   solvers::StoppingRule some = rule;
   const auto rounds = [&] { return sampling.solved(sampling.materials().exitance, some, trial).solver.history; };

@@ -1,7 +1,9 @@
 #include "scene/inspection.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/error.h"
 #include "core/format.h"
 #include "scene/inspection_parts.h"
 
@@ -36,6 +38,18 @@ std::string overlap_text(const Inspection::Finding& overlap) {
                                                   : "'" + overlap.surface + "' and '" + overlap.other + "'";
   return core::format("%s lie in one plane and overlap in %.3g m2 at (%.6g, %.6g, %.6g)", which.c_str(), overlap.twice,
                       overlap.where.x(), overlap.where.y(), overlap.where.z());
+}
+
+std::vector<Inspection::Finding> require_each_place_once(const Scene& scene, Twice may_be) {
+  std::vector<Inspection::Finding> allowed;
+  for (Inspection::Finding& found : overlaps(scene)) {
+    if (!(found.twice > 0)) continue;
+    if (may_be == Twice::nothing || !found.other.empty())
+      throw core::InputError(scene.file.empty() ? "scene" : scene.file.string(),
+                             overlap_text(found) + ": what is seen there is not defined; cut them, or leave one out");
+    allowed.push_back(std::move(found));
+  }
+  return allowed;
 }
 
 Inspection inspect(const Scene& scene) {

@@ -39,4 +39,14 @@ std::string describe(Inspection::Finding::Kind kind);
 /// "'a' and 'b' lie in one plane and overlap in 2 m2 at (0, 0, 1)", with the area that is there twice.
 std::string overlap_text(const Inspection::Finding& overlap);
 
+/// What may look the same way from one place.
+enum class Twice { nothing, parts_of_a_surface };
+
+/// Of surfaces in one place none hides the other.  Where two look the same way there (`overlaps`), both would be seen as
+/// a whole, or now this one and now that: what is seen is not defined.  Of parts of one surface it is, but they count
+/// twice.
+/// @return  what is there twice and may be
+/// @throws core::InputError  which they are, and where
+std::vector<Inspection::Finding> require_each_place_once(const Scene& scene, Twice may_be = Twice::nothing);
+
 }  // namespace interflect::scene

@@ -206,4 +206,10 @@ Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, c
   return certificate;
 }
 
+void add_reason(const std::string& reason, Certificate& certificate) {
+  certificate.reasons.push_back(reason);
+  certificate.passed = false;
+  certificate.verdict = verdict_of(certificate);
+}
+
 }  // namespace interflect::validation

@@ -68,4 +68,7 @@ struct Certificate {
 Certificate certify(const scene::Scene& scene, std::span<const Judged> judged, const EnergyBalance& fem,
                     const EnergyBalance& mc, const Settings& settings);
 
+/// One more reason why it does not pass, of what the statistics cannot know; the verdict then says so.
+void add_reason(const std::string& reason, Certificate& certificate);
+
 }  // namespace interflect::validation

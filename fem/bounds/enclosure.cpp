@@ -199,16 +199,8 @@ class Enclosure::Iteration {
   double slack_;  ///< for rounding
 };
 
-void require_no_place_twice(const scene::Scene& scene) {
-  for (const auto& found : scene::overlaps(scene))
-    if (found.twice > 0)
-      throw core::InputError("bounds", scene::overlap_text(found) +
-                                           ": what is seen there is not defined, and nothing can be proved; cut them, "
-                                           "or leave one out");
-}
-
 Enclosure::Enclosure(const scene::Scene& scene, const RadiositySolution& solution, double max_memory, Run& run) {
-  require_no_place_twice(scene);
+  scene::require_each_place_once(scene);
   of_ = std::make_unique<Iteration>(scene, solution);
   of_->look_around(max_memory, run);
   of_->iterate(run);

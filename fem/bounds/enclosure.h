@@ -10,11 +10,6 @@
 
 namespace interflect::fem {
 
-/// Of surfaces in one place none hides the other.  Where two with elements face the same way there (scene::overlaps),
-/// both would be seen as a whole, and what is seen is not defined.
-/// @throws core::InputError  which they are, and where
-void require_no_place_twice(const scene::Scene& scene);
-
 /// Two-sided bounds of the exact solution, point by point, that are proved and not estimated: of B = E + rho T B about
 /// what a solution has on its elements, however good or bad that is: its constants, or the linear parts B_h of its
 /// polynomials.

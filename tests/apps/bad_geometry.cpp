@@ -175,8 +175,8 @@ void expect_refused(const std::string& name, const std::string& text, const std:
   EXPECT_EQ(folder.files(), 1u);
 }
 
-// What is not defined is not proved, and the run does not begin.
-TEST(BadGeometry, bounds_of_a_place_that_is_there_twice_are_refused_by_name) {
+// What is seen there is not defined: no command that solves begins.
+TEST(BadGeometry, a_place_that_is_there_twice_is_refused_by_name) {
   const std::string corners = "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]";
   const auto scene_of = [&](const std::string& second) {
     return R"({"format": "interflect/scene/1", "units": "m", "quantity": "radiometric",
@@ -185,17 +185,48 @@ TEST(BadGeometry, bounds_of_a_place_that_is_there_twice_are_refused_by_name) {
            corners + R"(}, {"name": "two", "material": "lit", "polygon": )" + second + "}]}";
   };
   const TemporaryFolder folder;
-  const auto solve = [&](const std::string& second) {
-    return interflect({"solve", folder.write("room.json", scene_of(second)), "--bounds", "--element-size", "0.5",
-                       "--no-pictures", "-o", folder / "out"});
+  const auto run = [&](std::vector<std::string> command, const std::string& second) {
+    command.insert(command.begin() + 1, folder.write("room.json", scene_of(second)));
+    command.insert(command.end(), {"--element-size", "0.5", "-o", folder / "out.h5"});
+    return interflect(command);
   };
-  const Outcome refused = solve("[[0.5, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 1, 0]]");
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("'one' and 'two' lie in one plane and overlap in 0.5 m2"), std::string::npos)
-      << refused.err;
-  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
-  EXPECT_EQ(folder.files(), 1u);
-  EXPECT_EQ(solve("[[1, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0]]").status, 0);
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{"solve"},
+                                                                                       {"solve", "--bounds"},
+                                                                                       {"solve", "--forecast"},
+                                                                                       {"validate"},
+                                                                                       {"shoot"},
+                                                                                       {"exchange"},
+                                                                                       {"compare-solvers"},
+                                                                                       {"compare-form-factors"},
+                                                                                       {"view-factors"}}) {
+    const Outcome refused = run(command, "[[0.5, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 1, 0]]");
+    EXPECT_EQ(refused.status, 2) << command.front();
+    EXPECT_NE(refused.err.find("room.json: 'one' and 'two' lie in one plane and overlap in 0.5 m2"), std::string::npos)
+        << refused.err;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_EQ(folder.files(), 1u);
+  }
+  EXPECT_EQ(run({"solve", "--bounds", "--no-pictures"}, "[[1, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0]]").status, 0);
+}
+
+// Of a mesh that is one surface the parts cannot be left out; what is seen is that surface, and only bounds are refused.
+TEST(BadGeometry, parts_of_a_surface_that_are_there_twice_are_warned_of) {
+  const TemporaryFolder folder;
+  folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0 0\nv 0.5 1 0\nf 1 2 3 4\nf 5 2 3 6\n");
+  const std::string scene = folder.write("room.json", R"({"format": "interflect/scene/1", "units": "m",
+    "materials": {"lit": {"type": "diffuse", "reflectance": 0.5, "exitance": 1}},
+    "geometry": [{"file": "mesh.obj", "unmapped": "lit"}]})");
+  const auto solve = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"solve", scene, "--element-size", "0.5", "--no-pictures", "-o", folder / "out"};
+    command.insert(command.end(), more.begin(), more.end());
+    return interflect(command);
+  };
+  const Outcome solved = solve({});
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_NE(solved.err.find("overlap in 0.5 m2"), std::string::npos) << solved.err;
+  EXPECT_NE(solved.err.find(": that part counts twice"), std::string::npos) << solved.err;
+  EXPECT_NE(read_file(folder / "out/summary.json").find("that part counts twice"), std::string::npos);
+  EXPECT_EQ(solve({"--bounds"}).status, 2);
 }
 
 TEST(BadGeometry, overlaps_in_one_plane_are_refused_by_name) {

@@ -73,6 +73,27 @@ TEST(BadInput, settings_that_the_method_has_not) {
   expect_refused({"solve", scene, "-o", "x", "--samples", "100"}, "gauss-lambert");
 }
 
+TEST(BadInput, settings_that_the_solver_has_not) {
+  const std::string scene = shipped_scene("cube"), rays = "regular-stochastic-jacobi";
+  expect_refused({"solve", scene, "-o", "x", "--noise", "2%"},
+                 "--noise: automatic does not heed it: --solver stochastic-jacobi, regular-stochastic-jacobi, ");
+  expect_refused({"validate", scene, "-o", "x", "--solver", "jacobi", "--sequence", "sobol"},
+                 "--sequence: jacobi does not heed it: --solver stochastic-jacobi, ");
+  expect_refused({"solve", scene, "-o", "x", "--solver", "gmres", "--relaxation", "1.1"},
+                 "--relaxation: gmres does not heed it: --solver over-relaxation;");
+  expect_refused({"solve", scene, "-o", "x", "--unshot", "1%"}, "--unshot: automatic does not heed it: ");
+  expect_refused({"shoot", scene, "-o", "x", "--solver", "southwell", "--overshoot", "0.5"},
+                 "--overshoot: southwell does not heed it: --solver progressive;");
+  expect_refused({"solve", scene, "-o", "x", "--solver", rays, "--solver-tolerance", "1e-3"},
+                 "does not heed it: --solver automatic, conjugate-gradients, ");
+  for (const auto& [name, value] :
+       std::vector<std::pair<const char*, const char*>>{{"--visibility-error", "5%"}, {"--form-factors", "analytic"}})
+    expect_refused({"solve", scene, "-o", "x", "--solver", rays, name, value},
+                   std::string(name) + ": " + rays + " works by rays, without form factors, and does not heed it: ");
+  expect_refused({"compare-solvers", scene, "-o", "x", "--solvers", "jacobi", "gmres", "--noise", "5%"},
+                 "--noise: none of jacobi, gmres heeds it: --solvers stochastic-jacobi, ");
+}
+
 TEST(BadInput, settings_that_view_factors_of_a_file_do_not_heed) {
   const std::vector<std::pair<const char*, const char*>> settings{{"--form-factors", "analytic"},
                                                                   {"--quadrature-tolerance", "1e-4"},
@@ -82,6 +103,17 @@ TEST(BadInput, settings_that_view_factors_of_a_file_do_not_heed) {
     for (const char* command : {"solve", "validate", "render"})
       expect_refused({command, shipped_scene("cube"), "-o", "x", "--factors", "F.h5", name, value},
                      std::string(name) + ": the view factors of a file do not heed it");
+}
+
+// A variable that is not set leaves "", which is none.
+TEST(BadInput, names_that_are_empty) {
+  const std::string scene = shipped_scene("cube");
+  for (const char* name : {"--factors", "--goal"})
+    expect_refused({"solve", scene, "-o", "x", name, ""}, std::string(name) + ": the name of a");
+  expect_refused({"render", scene, "-o", "x.png", "--camera", ""}, "--camera: the name of a camera is expected");
+  expect_refused({"trace", scene, "-o", "x.png", "--estimates", ""}, "--estimates: the name of a folder is expected");
+  expect_refused({"solve", "", "-o", "x"}, "SCENE: the name of a scene file is expected");
+  expect_refused({"solve", scene, "-o", ""}, "--out: the name of a folder is expected");
 }
 
 TEST(BadInput, percents_out_of_a_range_that_is_told_in_percents) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "core/vec.h"
@@ -196,6 +197,41 @@ TEST(Solve, makes_elements_for_a_goal_and_says_how_it_got_there) {
   EXPECT_EQ(summary.at("elements"), last.at("elements"));
 }
 
+// The last row and what is said at the end are one number, rounded once.
+TEST(Solve, tells_of_a_goal_the_same_twice) {
+  const TemporaryFolder folder;
+  for (const char* target : {"1%", "0.02%"}) {
+    const Outcome solve = interflect({"solve", shipped_scene("cube"), "-o", folder / "out", "--no-pictures", "--goal",
+                                      "ceiling", "--target-error", target, "--element-size", "2"});
+    ASSERT_EQ(solve.status, 0) << solve.err;
+    const std::regex pattern(
+        R"((\S+) +(\S+) +(\S+ %) +\S+ m?s\nstopped +\S.*\nE_avg\(ceiling\) = (\S+) W/m2, error <= (\S+) W/m2 \((\S+ %),)");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(solve.out, found, pattern)) << solve.out;
+    for (int k = 1; k <= 3; ++k) EXPECT_EQ(found.str(k), found.str(k + 3)) << solve.out;
+    EXPECT_LE(std::stod(found.str(3)), std::stod(target)) << "rounding is a small part of it";
+  }
+}
+
+// What the user left out is no fault of the geometry; what was made up for is none at all.
+TEST(Solve, tells_what_was_left_out_on_request_from_faults) {
+  const TemporaryFolder folder;
+  const auto warnings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"solve", shipped_scene("cube"), "--element-size", "0.2", "--no-pictures",
+                                     "-o",    folder / "out"};
+    command.insert(command.end(), more.begin(), more.end());
+    return interflect(command).err;
+  };
+  const std::string dropped = warnings({"--drop-below", "0.005"});
+  EXPECT_TRUE(contains(dropped, "of the emitted flux, likely by the pairs that --drop-below leaves out (")) << dropped;
+  EXPECT_FALSE(contains(dropped, "do faces coincide")) << dropped;
+  EXPECT_FALSE(contains(warnings({"--drop-below", "0.005", "--closure", "scaling"}), "form factors lose"));
+  // A single plane loses what is near the horizon.
+  const std::string both = warnings({"--form-factors", "single-plane", "--resolution", "32", "--drop-below", "0.0002"});
+  EXPECT_TRUE(contains(both, " (pairs that --drop-below leaves out: some 0.") && contains(both, "do faces coincide"))
+      << both;
+}
+
 // A furnace of rho .5 in which all emits .5: B = H = 1.
 TEST(Solve, proves_bounds_beside_its_estimates) {
   const TemporaryFolder folder;
@@ -248,6 +284,11 @@ TEST(Solve, a_forecast_says_what_bounds_take_roughly) {
   std::vector<std::string> as_json = asked;
   as_json.emplace_back("--json");
   EXPECT_DOUBLE_EQ(json::parse(interflect(as_json).out).at("bounds_seconds"), 1.2);
+  // How many elements a goal will take is not known.
+  const Outcome of_goal = interflect({"solve", shipped_scene("cornell_box"), "--goal", "floor", "--target-error", "5%",
+                                      "--bounds", "--forecast", "--threads", "2"});
+  EXPECT_TRUE(contains(of_goal.out, "roughly 5.0 s more for every hundred elements of the last pass"))
+      << of_goal.out << of_goal.err;
 }
 
 // By rays it is known what an open scene loses: their noise is in what is left for form factors.  A closed one loses
@@ -308,6 +349,15 @@ TEST(Validate, certifies_the_cube_and_joins_on_names) {
   for (std::size_t i = 0; i < fem.size(); ++i) EXPECT_EQ(fem[i][0], traced[i][0]);
 }
 
+// The largest difference is a part of the mean of all, that of a surface a part of its own.
+TEST(Validate, says_what_its_percents_are_of) {
+  const TemporaryFolder folder;
+  const Outcome validate = interflect({"validate", shipped_scene("cube"), "-o", folder / "out", "--element-size", "0.5",
+                                       "--accuracy", "5%", "--no-pictures"});
+  EXPECT_TRUE(contains(validate.out, "  max, of mean H  ")) << validate.out;
+  EXPECT_TRUE(contains(validate.out, " % of its own H\n")) << validate.out;
+}
+
 TEST(Validate, pictures_are_numbered_whatever_cameras_are_called) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("room.json", R"({ "format": "interflect/scene/1", "units": "m",
@@ -356,11 +406,12 @@ TEST(Solve, of_a_run_that_was_stopped_can_be_had_again) {
   "geometry": [ { "box": { "min": [0,0,0], "max": [1,1,1] }, "facing": "inward", "material": "white" } ] })");
   const auto solve = [&](const std::string& scene, const std::string& solver, const std::string& out,
                          const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"solve",          scene,      "--element-size", "0.1",
-                                       "--solver",       solver,     "--noise",        "0.001%",
-                                       "--form-factors", "analytic", "--no-pictures",  "--solver-tolerance",
-                                       "1e-15",          "-o",       folder / out};
-    arguments.insert(arguments.end(), more.begin(), more.end());
+    std::vector<std::string> arguments{"solve",         scene, "--element-size", "0.1", "--solver", solver,
+                                       "--no-pictures", "-o",  folder / out};
+    const std::vector<std::string> accuracy =
+        solver == "jacobi" ? std::vector<std::string>{"--form-factors", "analytic", "--solver-tolerance", "1e-15"}
+                           : std::vector<std::string>{"--noise", "0.001%"};
+    for (const auto& also : {accuracy, more}) arguments.insert(arguments.end(), also.begin(), also.end());
     return interflect(arguments);
   };
   for (const auto& [solver, scene] :
@@ -480,6 +531,19 @@ TEST(Solvers, are_listed_and_compared) {
   EXPECT_TRUE(contains(csv, "solver,iteration,rows_or_rays,seconds,error,residual_or_noise")) << csv;
   EXPECT_TRUE(contains(csv, "conjugate-gradients,1,")) << csv;
   EXPECT_EQ(interflect({"compare-solvers", shipped_scene("cube"), "--solvers", "gauss", "-o", folder / "x"}).status, 2);
+}
+
+// Why one does not take an open scene is a sentence below the table, not in a column of it.
+TEST(Solvers, that_refuse_say_why_below_the_table) {
+  const TemporaryFolder folder;
+  const Outcome compared =
+      interflect({"compare-solvers", shipped_scene("cornell_box"), "--element-size", "0.3", "--solvers", "jacobi",
+                  "control-variate-stochastic-jacobi", "-o", folder / "out"});
+  EXPECT_EQ(compared.status, 0) << compared.err;
+  const std::string table = compared.out.substr(compared.out.find("sweeps to"));
+  EXPECT_TRUE(contains(table, "  refused\nrefused: solver 'control-variate-stochastic-jacobi': a closed room expected"))
+      << compared.out;
+  EXPECT_LT(table.find('\n'), 120u) << table;
 }
 
 /// A copy of the office with less flux from the panels of one side.

@@ -115,7 +115,9 @@ TEST(Interrupted, a_validation_gives_its_verdict_on_what_it_has_and_says_so_ever
                                       {.interrupt_when = part_of("path tracing")});
   EXPECT_EQ(validate.status, 1) << validate.err;
   EXPECT_TRUE(contains(validate.out, "not validated: stopped")) << validate.out;
+  EXPECT_TRUE(contains(validate.out, "Not validated: ")) << validate.out;
   EXPECT_TRUE(contains(validate.out, "of the path-traced reference")) << validate.out;
+  EXPECT_FALSE(contains(validate.out, "Validated:")) << validate.out;
   EXPECT_FALSE(std::filesystem::exists(folder / "out/validation.png"));
   const auto certificate = json_of(folder / "out/validation.json");
   EXPECT_EQ(certificate.at("stopped"), true);

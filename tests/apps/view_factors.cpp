@@ -251,6 +251,7 @@ TEST(ViewFactors, of_a_stopped_run_go_on) {
   const Outcome stopped = interflect(to(folder / "F.h5", "1"), {.interrupt_when = some_tiles});
   EXPECT_EQ(stopped.status, 1) << stopped.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "F.h5"));
+  EXPECT_TRUE(contains(stopped.err, "F.h5.partial: the same command goes on from there")) << stopped.err;
   const Outcome rest = interflect(to(folder / "F.h5"));
   EXPECT_EQ(rest.status, 0) << rest.err;
   EXPECT_TRUE(contains(rest.out, "going on with ")) << rest.out;

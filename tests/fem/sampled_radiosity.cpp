@@ -167,8 +167,8 @@ TEST(SampledRadiosity, refuses_what_it_cannot_do) {
   EXPECT_NE(complaint(settings_of("control-variate-stochastic-jacobi")).find("closed"), std::string::npos);
 }
 
-// Its rounds are tried until a second has gone by, and those to come are told from how the noise fell: within a factor
-// of five on a machine that does other work meanwhile.
+// Its rounds are tried until a quarter of a second has gone by, and those to come are told from how the noise fell:
+// within a factor of five on a machine that does other work meanwhile.
 TEST(SampledRadiosity, is_forecast_by_what_it_takes) {
   const scene::Scene scene = furnished();
   core::LocalRun run(4, 2);

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "core/error.h"
 #include "scene/builder.h"
 
 namespace interflect::scene {
@@ -177,6 +178,27 @@ TEST(Inspect, overlaps_tell_what_active_sides_have_in_common) {
       EXPECT_NEAR(twice(true, first, second), 1, 1e-12);
       EXPECT_NEAR(twice(false, first, second), first || second ? 1 : 0, 1e-12);
     }
+}
+
+TEST(Inspect, each_place_once_is_what_surfaces_must_have_and_their_parts_may_lack) {
+  const geometry::TriangleCorners whole{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+      part{Vec3(0, 0, 0), Vec3(.5, 0, 0), Vec3(0, .5, 0)};
+  const auto found_in = [&](bool one_surface, Twice may_be) {
+    Site site;
+    if (one_surface) {
+      site.builder.add_facets("a", std::vector{whole, part}, site.wall);
+    } else {
+      site.builder.add_facets("a", std::vector{whole}, site.wall);
+      site.builder.add_facets("b", std::vector{part}, site.wall);
+    }
+    return require_each_place_once(site.builder.finish(), may_be).size();
+  };
+  for (const bool one : {false, true}) EXPECT_THROW(found_in(one, Twice::nothing), core::InputError);
+  EXPECT_THROW(found_in(false, Twice::parts_of_a_surface), core::InputError);
+  EXPECT_EQ(found_in(true, Twice::parts_of_a_surface), 1u);
+  Site apart;
+  apart.builder.add_polygon("a", {square(0, 0, 0, 1), {}}, apart.wall);
+  EXPECT_TRUE(require_each_place_once(apart.builder.finish()).empty());
 }
 
 TEST(Inspect, a_wall_that_is_there_twice_is_a_duplicate_whichever_way_it_faces) {

@@ -55,6 +55,17 @@ TEST(Certificate, planted_faults_fail) {
   EXPECT_EQ(unknown.verdict.rfind("Not validated: ", 0), 0u);
 }
 
+TEST(Certificate, what_statistics_cannot_know_is_a_reason_and_the_verdict_is_one) {
+  Certificate c = certificate_of(synthetic::judged({.spread = 0.01, .bound = 0.03}, 1));
+  const std::string measured = c.verdict.substr(std::string("Validated: ").size());
+  add_reason("stopped", c);
+  EXPECT_FALSE(c.passed);
+  EXPECT_EQ(c.verdict, "Not validated: stopped; " + measured);
+  add_reason("of no use", c);
+  EXPECT_EQ(c.verdict, "Not validated: stopped; " + measured);
+  EXPECT_EQ(c.reasons, (std::vector<std::string>{"stopped", "of no use"}));
+}
+
 TEST(Certificate, one_wrong_element_breaks_a_guarantee_and_is_remarked_upon_where_bounds_are_estimates) {
   std::vector<Judged> judged = synthetic::judged({.bound = 0.02, .claim = Claim::guaranteed}, 1);
   judged[42].fem.value *= 1.3;
