@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "montecarlo/bsdf/bsdf.h"
+
+namespace interflect::montecarlo {
+
+/// A part of the surface is there, and light passes straight through the rest.
+class Mask final : public Bsdf {
+ public:
+  /// @param opacity  0 .. 1: how much is there
+  Mask(double opacity, std::unique_ptr<Bsdf> of) : opacity_(opacity), of_(std::move(of)) {}
+
+  Spectrum f(const Vec3& from, const Vec3& to) const override { return opacity_ * of_->f(from, to); }
+  double pdf_solid_angle(const Vec3& known, const Vec3& drawn) const override {
+    return opacity_ * of_->pdf_solid_angle(known, drawn);
+  }
+  std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override {
+    if (u[0] >= opacity_) return Scattered{-known, Spectrum(1), 0, true};
+    std::optional<Scattered> found = of_->sample(known, Vec3(u[0] / opacity_, u[1], u[2]), walk);
+    if (found) found->pdf_solid_angle *= opacity_;  // the weight is f / p of both
+    return found;
+  }
+  bool only_delta() const override { return opacity_ == 0 || of_->only_delta(); }
+
+ private:
+  double opacity_;
+  std::unique_ptr<Bsdf> of_;
+};
+
+/// A surface whose back is black.
+class FrontOnly final : public Bsdf {
+ public:
+  explicit FrontOnly(std::unique_ptr<Bsdf> of) : of_(std::move(of)) {}
+
+  Spectrum f(const Vec3& from, const Vec3& to) const override {
+    return from.z() > 0 && to.z() > 0 ? of_->f(from, to) : Spectrum::zero();
+  }
+  double pdf_solid_angle(const Vec3& known, const Vec3& drawn) const override {
+    return known.z() > 0 && drawn.z() > 0 ? of_->pdf_solid_angle(known, drawn) : 0;
+  }
+  std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override {
+    return known.z() > 0 ? of_->sample(known, u, walk) : std::nullopt;
+  }
+  bool only_delta() const override { return of_->only_delta(); }
+
+ private:
+  std::unique_ptr<Bsdf> of_;
+};
+
+}  // namespace interflect::montecarlo

@@ -1,0 +1,84 @@
+#include "montecarlo/bsdf/rough_conductor.h"
+
+#include "core/fresnel.h"
+#include "montecarlo/bsdf/facet_albedo.h"
+#include "montecarlo/warp.h"
+
+namespace interflect::montecarlo {
+namespace {
+
+Spectrum mean_of(const MetalFresnel& fresnel) {
+  constexpr int n = 256;  // Simpson's rule
+  Spectrum sum;
+  for (int k = 0; k <= n; ++k) {
+    const double c = static_cast<double>(k) / n, weight = k == 0 || k == n ? 1 : k % 2 == 1 ? 4 : 2;
+    sum += fresnel(c) * (weight * 2 * c / (3 * n));
+  }
+  return sum;
+}
+
+double reflected_once(const Ggx& facets, double cosine) {
+  return facet_albedo(facets, cosine, [&](const Vec3& v, const Vec3& h) {
+    const Vec3 way = core::reflected(v, h);
+    return way.z() > 0 ? facet_weight(facets, v, way) : 0;
+  });
+}
+
+Vec3 up(Vec3 v) {
+  if (v.z() < 0) v.z() = -v.z();
+  return v;
+}
+
+}  // namespace
+
+MetalFresnel::MetalFresnel(const ComplexIndex& index) : by_(index), mean_(mean_of(*this)) {}
+MetalFresnel::MetalFresnel(const Spectrum& at_normal) : by_(at_normal), mean_(mean_of(*this)) {}
+
+Spectrum MetalFresnel::operator()(double cosine) const {
+  if (const auto* index = std::get_if<ComplexIndex>(&by_)) {
+    Spectrum F;
+    for (int c = 0; c < Spectrum::capacity; ++c) F[c] = core::fresnel(cosine, index->eta[c], index->k[c]).mean();
+    return F;
+  }
+  const double left = 1 - cosine, edge = left * left * left * left * left;
+  return std::get<Spectrum>(by_).map([&](double at_normal) { return at_normal + (1 - at_normal) * edge; });
+}
+
+RoughConductor::RoughConductor(double alpha, MetalFresnel fresnel, Scattering scattering)
+    : facets_(alpha),
+      fresnel_(std::move(fresnel)),
+      compensated_(scattering == Scattering::compensated),
+      E_([&](double cosine) { return compensated_ ? reflected_once(facets_, cosine) : 1; }) {
+  const double lost = 1 - E_.mean();
+  if (!(compensated_ && lost > 1e-7)) {
+    compensated_ = false;  // nothing to speak of
+    return;
+  }
+  diffuse_ = fresnel_.mean().map([&](double F) { return F * F * E_.mean() / (1 - F * lost) / (pi * lost); });
+}
+
+Spectrum RoughConductor::f(const Vec3& from, const Vec3& to) const {
+  if (!same_side(from, to)) return Spectrum::zero();
+  const Vec3 i = up(from), o = up(to), h = (i + o).normalized();
+  const Spectrum once = fresnel_(i.dot(h)) * (facets_.density(h) * facets_.visible(i, o) / (4 * i.z() * o.z()));
+  return once + diffuse_ * (diffuse_share(i.z()) * diffuse_share(o.z()));
+}
+
+double RoughConductor::pdf_solid_angle(const Vec3& known, const Vec3& drawn) const {
+  if (!same_side(known, drawn)) return 0;
+  const Vec3 k = up(known), s = up(drawn), h = (k + s).normalized();
+  const double diffuse = diffuse_share(k.z());
+  return (1 - diffuse) * facets_.pdf_solid_angle(k, h) / (4 * k.dot(h)) +
+         diffuse * cosine_hemisphere_pdf_solid_angle(s.z());
+}
+
+std::optional<Scattered> RoughConductor::sample(const Vec3& known, const Vec3& u, Walk walk) const {
+  const Vec3 k = up(known);
+  Vec3 way =
+      u[0] < diffuse_share(k.z()) ? cosine_hemisphere(u[1], u[2]) : core::reflected(k, facets_.sample(k, u[1], u[2]));
+  if (!(way.z() > 0)) return std::nullopt;
+  if (known.z() < 0) way.z() = -way.z();
+  return scattered(*this, known, way, walk);
+}
+
+}  // namespace interflect::montecarlo
