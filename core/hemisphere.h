@@ -12,6 +12,7 @@ namespace interflect::core {
 struct Frame {
   Vec3 s, t, n;
   Vec3 to_world(const Vec3& local) const { return local.x() * s + local.y() * t + local.z() * n; }
+  Vec3 to_local(const Vec3& world) const { return {s.dot(world), t.dot(world), n.dot(world)}; }
 };
 
 /// Source: [Duff et al. 2017] "Building an orthonormal basis, revisited", JCGT 6(1): no branch, no singular direction.

@@ -1,5 +1,6 @@
 #include "fem/element_materials.h"
 
+#include "core/error.h"
 #include "fem/columns.h"
 #include "fem/space/polynomials.h"
 
@@ -7,7 +8,16 @@ namespace interflect::fem {
 
 using solvers::ColumnMatrix;
 
+void require_diffuse(const scene::Scene& scene) {
+  for (const scene::SurfaceId id : scene.surface_ids())
+    if (const scene::Material& material = scene.material(id); !material.is_diffuse())
+      throw core::InputError("'" + scene.surface(id).name + "'",
+                             "its material '" + material.name + "' is " + material.kind() +
+                                 ": radiosity knows what is diffuse and opaque; trace and render know this too");
+}
+
 ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches) {
+  require_diffuse(scene);
   ElementMaterials out;
   for (const scene::SurfacePatch& patch : patches) {
     const scene::Material& material = scene.material(patch.surface);

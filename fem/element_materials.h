@@ -11,10 +11,14 @@
 
 namespace interflect::fem {
 
+/// @throws core::InputError  which surface is not diffuse
+void require_diffuse(const scene::Scene& scene);
+
 /// What elements emit and reflect.
 struct ElementMaterials {
   std::vector<Spectrum> exitance, reflectance;
 };
+/// @throws core::InputError  where a surface is not diffuse
 ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches);
 
 /// Exitance of the elements that are not of a light group becomes 0.

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "core/random.h"
+#include "montecarlo/bsdf/lambert.h"
 #include "montecarlo/emitters.h"
+#include "montecarlo/surface_optics.h"
 #include "raycast/ray_caster.h"
 
 namespace interflect::montecarlo {
@@ -12,51 +14,72 @@ struct Receiver {
   Vec3 position, normal;
 };
 
-/// One path, one unbiased estimate: the rendering equation of diffuse surfaces [Kajiya 1986] on irradiance,
+/// One path from where light arrives, one unbiased estimate: the rendering equation [Kajiya 1986]
 ///
-///   H(x) = ∫ B(y) cos_x cos_y / (pi r²) V(x, y) dA_y,   B(y) = E(y) + rho(y) H(y),   L = B / pi,
+///   L(x -> o) = E(x) / pi + int f(i -> o) L(y -> x) |cos_i| d sigma_i,     y what is seen from x along i,
 ///
-/// by recursion on y, drawn from cos_x / pi (so that H is estimated by B(y) itself).  The emitted part E of B is found
-/// by two techniques: that ray, and a point drawn on the emitters with pdf_area.  Under the balance heuristic [Veach
-/// and Guibas 1995, eq. 11] both score the same function of (x, y), since f / (p_1 + p_2) does not know which of the
-/// two drew y:
+/// by recursion on y, whose direction the Bsdf of x draws.  Light that shines from y is found by two techniques: that
+/// ray, and a point drawn on the emitters.  Under the balance heuristic [Veach and Guibas 1995, eq. 11] both score
 ///
-///   E(y) / (1 + pi pdf_area(y) / G),   G = cos_x cos_y / r²,   p_1 = G / pi [1/m²],
+///   f |cos_x| E(y) / pi / (p_bsdf + p_light)  [1/sr],   p_light = pdf_area(y) r² / cos_y,
 ///
-/// which is at most E: no singularity where walls and lights meet.  A path goes on from y with probability q = min(1,
-/// max_c T_c) where T is the product of rho / q so far: never cut by length, and T_c <= 1 always.  Backs of one-sided
-/// materials are black.
+/// since f / (p_1 + p_2) does not know which of the two drew y: no singularity where walls and lights meet.  What is
+/// delta at x finds light by the ray alone.  Through panes and masks light goes straight on: shadow rays are weakened
+/// there, a ray passes without a new direction, and both weigh as if nothing were there (any weights that add up to 1
+/// are right).
+///
+/// A path goes on with probability q = min(0.999, max_c T_c), T the product of f |cos| / (p q) so far, but for what
+/// radiance gains or loses as the square of the index does: never cut by length.
+/// Irradiance is what a receiver that reflects everything diffusely would send, times pi.
 class PathEstimator {
  public:
   /// Both must outlive it.
   PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster);
 
-  /// Irradiance H at a place [W/m² | lx].  Uses the dimensions of `numbers` from `block` on, three blocks a vertex.
-  Spectrum irradiance(Receiver at, core::RandomNumbers& numbers, std::uint32_t block) const;
+  /// Irradiance H at a place [W/m² | lx].  Uses the dimensions of `numbers` from `block` on, four blocks a vertex.
+  Spectrum irradiance(const Receiver& at, core::RandomNumbers& numbers, std::uint32_t block) const;
 
-  /// Radiance L that comes to a point in free space along -direction, (E + rho H) / pi of what is seen there.
+  /// Radiance L that comes to a point in free space along -direction.
   Spectrum radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers, std::uint32_t block) const;
 
   const scene::Scene& scene() const { return scene_; }
   const Emitters& emitters() const { return emitters_; }
 
-  /// What one vertex of a path can add to an irradiance at most: the largest exitance by each of the two techniques.
+  /// What one vertex of a path can add to an irradiance at most where all is diffuse: the largest exitance by each of
+  /// the two techniques.
   Spectrum largest_score() const { return 2 * emitters_.max_exitance(); }
 
  private:
-  struct Optics {
-    Spectrum reflectance, exitance;
+  /// Where a path scatters.
+  struct Vertex {
+    Vec3 position;
+    Frame frame;  ///< about the normal of the front
+    Vec3 to_eye;  ///< in the frame
+    const Bsdf* bsdf;
   };
-  const Optics& optics(const scene::SurfacePoint& at) const {
-    return optics_[2 * at.surface.value + (at.side == scene::Side::back)];
-  }
-  Spectrum from_emitters(const Receiver& at, double pick, double u, double v) const;
-  Spectrum from_hit(const Receiver& at, const Vec3& direction, double cos_x, const scene::SurfacePoint& hit) const;
+  /// A ray, and where its direction was drawn.
+  struct Drawn {
+    raycast::Ray ray;
+    Vec3 from;               ///< the last place that was not passed straight
+    double pdf_solid_angle;  ///< 0: delta, or of the eye
+  };
+  /// What a path has found, and what further finds are worth.
+  struct Carried {
+    Spectrum found{}, throughput{1};
+    double squeezed = 1;  ///< of the throughput
+  };
+
+  void follow(Vertex at, Carried& path, core::RandomNumbers& numbers, std::uint32_t block) const;
+  std::optional<Vertex> arrive(const Drawn& drawn, Carried& path) const;
+  Spectrum from_emitters(const Vertex& at, double pick, double u, double v) const;
+  Spectrum emitted(const Drawn& drawn, const scene::SurfacePoint& hit) const;
+  Spectrum let_pass(const raycast::Segment& segment) const;
 
   const scene::Scene& scene_;
   const raycast::RayCaster& caster_;
   Emitters emitters_;
-  std::vector<Optics> optics_;  ///< [2 * surface + (side is back)]
+  SurfaceOptics optics_;
+  Lambert receiver_{Spectrum(1)};
 };
 
 }  // namespace interflect::montecarlo

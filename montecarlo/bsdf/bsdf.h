@@ -17,6 +17,8 @@ struct Scattered {
   Spectrum weight;         ///< f |cos| / p of it: what a path's throughput is multiplied by
   double pdf_solid_angle;  ///< of `way` by all that is not delta [1/sr]; 0 where this is
   bool delta;              ///< to a direction of its own: no other way of drawing would have found it
+  bool straight = false;   ///< through, and on as it came
+  double squeezed = 1;     ///< of the weight, by how much radiance changes as the square of the index does
 };
 
 /// How a place of a surface scatters light.  Directions are unit, lead away from the surface, and are in a frame whose z
@@ -40,6 +42,10 @@ class Bsdf {
   /// @param u      uniform in [0, 1): which part, and the direction in it
   /// @return       nothing: the path ends, with nothing lost but what is absorbed
   virtual std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const = 0;
+  /// What goes straight through of light that arrives from there.
+  virtual Spectrum straight(const Vec3&) const { return Spectrum::zero(); }
+  /// Whether any light may.
+  virtual bool lets_pass() const { return false; }
   /// Whether f is 0 everywhere: a path cannot be joined here with another.
   virtual bool only_delta() const { return false; }
 };

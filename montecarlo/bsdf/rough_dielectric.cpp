@@ -102,7 +102,9 @@ std::optional<Scattered> RoughDielectric::sample(const Vec3& known, const Vec3& 
     way = back ? std::optional(core::reflected(k, h)) : core::refracted(k, h, eta);
     if (!way || (way->z() > 0) != back) return std::nullopt;
   }
-  return scattered(*this, known, turned(*way, below), walk);
+  std::optional<Scattered> found = scattered(*this, known, turned(*way, below), walk);
+  if (found && walk == Walk::from_eye && !same_side(known, found->way)) found->squeezed = 1 / (eta * eta);
+  return found;
 }
 
 }  // namespace interflect::montecarlo

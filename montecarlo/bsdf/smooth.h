@@ -4,6 +4,7 @@
 
 #include "core/fresnel.h"
 #include "montecarlo/bsdf/bsdf.h"
+#include "montecarlo/bsdf/metal_fresnel.h"
 
 /// Smooth boundaries: all they do is delta.
 namespace interflect::montecarlo {
@@ -31,6 +32,18 @@ class Mirror final : public SmoothBsdf {
   Spectrum reflectance_;
 };
 
+/// A mirror of metal.
+class PolishedMetal final : public SmoothBsdf {
+ public:
+  explicit PolishedMetal(MetalFresnel fresnel) : fresnel_(std::move(fresnel)) {}
+  std::optional<Scattered> sample(const Vec3& known, const Vec3&, Walk) const override {
+    return to(mirrored(known), fresnel_(std::abs(known.z())));
+  }
+
+ private:
+  MetalFresnel fresnel_;
+};
+
 /// The boundary of glass or water: reflects F, and refracts 1 - F.
 ///
 /// Of refracted light the radiance is L_o = (1 - F) L_i (eta_o / eta_i)², since it is squeezed into fewer directions:
@@ -44,7 +57,9 @@ class Dielectric final : public SmoothBsdf {
     if (u[0] < F) return to(mirrored(known), Spectrum(1));
     const std::optional<Vec3> way = core::refracted(known, Vec3::UnitZ(), eta);
     if (!way) return std::nullopt;
-    return to(*way, Spectrum(walk == Walk::from_eye ? 1 / (eta * eta) : 1));
+    Scattered refracted = to(*way, Spectrum(1));
+    if (walk == Walk::from_eye) refracted.squeezed = 1 / (eta * eta), refracted.weight *= refracted.squeezed;
+    return refracted;
   }
 
  private:
@@ -64,14 +79,16 @@ class ThinPane final : public SmoothBsdf {
     set_parts(std::abs(known.z()), R, T);
     const double reflects = R.max() / (R.max() + T.max());
     if (u[0] < reflects) return to(mirrored(known), R / reflects);
-    return to(-known, T / (1 - reflects));
+    Scattered through = to(-known, T / (1 - reflects));
+    through.straight = true;
+    return through;
   }
-  /// Of light that goes straight through at this cosine.
-  Spectrum transmitted(double cosine) const {
+  Spectrum straight(const Vec3& from) const override {
     Spectrum R, T;
-    set_parts(cosine, R, T);
+    set_parts(std::abs(from.z()), R, T);
     return T;
   }
+  bool lets_pass() const override { return true; }
 
  private:
   void set_parts(double cosine, Spectrum& R, Spectrum& T) const {

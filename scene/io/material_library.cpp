@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/format.h"
+#include "scene/io/finish_reader.h"
 #include "scene/io/text_file.h"
 
 namespace interflect::scene::io {
@@ -19,25 +20,23 @@ void require_emission(const JsonNode& node) {
     node.fail(core::format("%.9g is negative: a surface cannot emit less than nothing", node.number()));
 }
 
-template <class Check>
-Spectrum read_checked(const JsonNode& node, int channels, const Check& check) {
-  if (node.is_array())
-    for (const JsonNode& value : node.items()) check(value);
-  else if (node.is_number())
-    check(node);
-  return read_spectrum(node, channels);
+/// Of every type; clear bodies shine by what is behind them.
+void require_known_keys(const JsonNode& node) {
+  std::vector<std::string> keys = keys_of_type(node);
+  for (const char* key : {"type", "exitance", "flux", "sides", "group", "opacity"}) keys.emplace_back(key);
+  node.only(keys);
 }
 
-void require_known(const JsonNode& node) {
-  if (node.has("type") && node.at("type").string() != "diffuse") {
-    const std::string type = node.at("type").string();
-    if (type == "glass" || type == "mirror" || type == "specular" || type == "glossy" || type == "translucent")
-      node.at("type").fail("this version does not know the type '" + type + "': only 'diffuse'");
-    node.at("type").fail(unknown_word("the type", type, {"diffuse"}));
-  }
-  if (node.has("transmittance"))
-    node.at("transmittance").fail("this version does not know transmittance: materials are opaque");
-  node.only({"type", "reflectance", "exitance", "flux", "sides", "emissivity", "temperature", "heat_flux", "group"});
+bool is_clear(const Finish& finish) {
+  return std::holds_alternative<Glass>(finish) || std::holds_alternative<Pane>(finish);
+}
+
+/// What lets light through has two sides, and no light of its own.
+void require_clear(const JsonNode& node) {
+  for (const char* key : {"exitance", "flux"})
+    if (node.has(key)) node.at(key).fail("what is clear does not emit: give the light a surface of its own");
+  if (node.has("sides") && node.at("sides").one_of({"front", "both"}) == 0)
+    node.at("sides").fail("light passes both sides of what is clear: \"both\" is expected, or nothing");
 }
 
 /// A grey surface that exchanges heat: 1 - emissivity is its reflectance, and what it emits its temperature says.
@@ -109,7 +108,7 @@ std::vector<std::string> read_channels(const JsonNode& root) {
   constexpr std::size_t most = Spectrum::capacity;
   if (root.has("channels")) return read_channel_names(root.at("channels"));
   for (const auto& [name, material] : root.at("materials").members())
-    for (const char* key : {"reflectance", "exitance", "flux"}) {
+    for (const char* key : {"reflectance", "exitance", "flux", "transmittance", "eta", "k"}) {
       if (!material.is_object() || !material.has(key) || !material.at(key).is_array()) continue;
       const std::size_t count = material.at(key).items(1).size();
       if (count > most) material.at(key).fail(core::format("%zu channels: this build holds at most %zu", count, most));
@@ -130,14 +129,17 @@ MaterialLibrary::MaterialLibrary(const JsonNode& materials, int channels) {
 }
 
 MaterialLibrary::Entry MaterialLibrary::read_entry(const std::string& name, const JsonNode& node, int channels) {
-  require_known(node);
+  require_known_keys(node);
   Entry entry;
+  entry.material.finish = read_finish(node, channels);
+  if (node.has("opacity")) entry.material.opacity = node.at("opacity").number_in(0, 1);
   entry.material.name = name;
   entry.material.group = node.has("group") ? node.at("group").string() : name;
   if (entry.material.group.empty()) node.at("group").fail("a light group needs a name");
   if (node.has("emissivity"))
     set_thermal(read_thermal(node), channels, entry.material);
-  else
+  else if (std::holds_alternative<Lambertian>(entry.material.finish) ||
+           std::holds_alternative<Plastic>(entry.material.finish))
     entry.material.reflectance = read_checked(node.at("reflectance"), channels, require_reflectance);
   for (const char* key : {"temperature", "heat_flux"})
     if (node.has(key) && !node.has("emissivity")) node.at(key).fail("an emissivity is expected beside it");
@@ -147,6 +149,13 @@ MaterialLibrary::Entry MaterialLibrary::read_entry(const std::string& name, cons
   entry.says_sides = node.has("sides");
   if (entry.says_sides)
     entry.material.sides = node.at("sides").one_of({"front", "both"}) == 0 ? Sides::front : Sides::both;
+  if (entry.material.opacity < 1 && (node.has("exitance") || node.has("flux")))
+    node.at("opacity").fail("what emits is all there");
+  if (is_clear(entry.material.finish)) {
+    require_clear(node);
+    entry.says_sides = true;
+    entry.material.sides = Sides::both;
+  }
   return entry;
 }
 

@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "scene/builder.h"
-#include "scene/io/json_document.h"
+#include "scene/io/checked_spectrum.h"
 
 namespace interflect::scene::io {
 
 /// Names of the channels: the key "channels", or what the lengths of the materials' arrays ask for: y, or r, g, b, or
 /// band_1 ..
 std::vector<std::string> read_channels(const JsonNode& root);
-
-/// A number for every channel, or an array with one for each.
-Spectrum read_spectrum(const JsonNode& node, int channels);
 
 /// The key "materials".  A material enters the scene when it is used, once for each meaning of "sides" where it does
 /// not say.

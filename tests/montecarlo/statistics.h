@@ -45,6 +45,7 @@ inline constexpr double alpha = 1e-3;
 inline void expect_agreement(const scene::Scene& scene, const std::vector<Question>& questions,
                              const montecarlo::PathTracerSettings& settings, double largest_error,
                              std::uint64_t seed = 1) {
+  ASSERT_GT(scene.channel_count(), 0);
   std::vector<measure::Measurement> asked;
   for (const Question& question : questions) asked.push_back(question.asked);
   core::LocalRun run(seed);

@@ -66,15 +66,41 @@ TEST(BadScene, what_this_version_does_not_know_is_said_in_so_many_words) {
   expect_all({{{R"("luminaires": [])"}, "s.json:4: /luminaires: this version does not know \"luminaires\""},
               {{R"("photometry": {})"}, "s.json:4: /photometry: this version does not know \"photometry\""},
               {{R"("sky": {})"}, "s.json:4: /sky: this version does not know \"sky\""},
-              {with_material(R"("type": "glass", "transmittance": 0.8)"),
-               "s.json:4: /materials/white/type: this version does not know the type 'glass': only 'diffuse'"},
-              {with_material(R"("type": "mirror", "reflectance": 0.8)"),
-               "s.json:4: /materials/white/type: this version does not know the type 'mirror': only 'diffuse'"},
               {with_material(R"("type": "difuse", "reflectance": 0.8)"),
                "s.json:4: /materials/white/type: the type 'difuse' is not known: did you mean 'diffuse'?"},
               {with_material(R"("reflectance": {"spectrum": "a.csv"})"),
                "s.json:4: /materials/white/reflectance: this version does not know spectra from files: a number or an "
                "array is expected"}});
+}
+
+TEST(BadScene, materials_say_what_their_type_needs_and_no_more) {
+  const std::string here = "s.json:4: /materials/white";
+  expect_all(
+      {{with_material(R"("type": "mirror")"), here + ": the key 'reflectance' is missing"},
+       {with_material(R"("type": "mirror", "reflectance": 1.1)"), here + "/reflectance: 1.1 is outside 0..1"},
+       {with_material(R"("type": "mirror", "reflectance": 0.5, "roughness": 0.1)"),
+        here + "/roughness: the key 'roughness' is not known: one of reflectance, type, exitance, flux, sides, group, "
+               "opacity is expected"},
+       {with_material(R"("type": "metal", "roughness": 0.1)"),
+        here + ": a reflectance at normal incidence is expected of a metal, or eta and k"},
+       {with_material(R"("type": "metal", "reflectance": 0.9, "eta": 0.2, "k": 3)"),
+        here + ": a reflectance at normal incidence is expected of a metal, or eta and k"},
+       {with_material(R"("type": "metal", "eta": 0.2)"), here + ": the key 'k' is missing"},
+       {with_material(R"("type": "metal", "eta": 0, "k": 3)"), here + "/eta: 0 is not positive"},
+       {with_material(R"("type": "metal", "reflectance": 0.9, "roughness": 2)"),
+        here + "/roughness: 2 is outside 0..1"},
+       {with_material(R"("type": "dielectric", "index": 0.1)"), here + "/index: 0.1 is outside 0.2..5"},
+       {with_material(R"("type": "dielectric", "exitance": 5)"),
+        here + "/exitance: what is clear does not emit: give the light a surface of its own"},
+       {with_material(R"("type": "glass", "transmittance": 0.8, "sides": "front")"),
+        here + "/sides: light passes both sides of what is clear: \"both\" is expected, or nothing"},
+       {with_material(R"("type": "glass", "transmittance": 0.95)"),
+        here + "/transmittance: 0.95: clear glass of index 1.5 transmits 0.923077, what is left is reflected"},
+       {with_material(R"("type": "plastic", "reflectance": 1)"),
+        here + "/reflectance: a reflectance of 1 is not below 1: every surface absorbs some light"},
+       {with_material(R"("reflectance": 0.5, "opacity": 0.5, "exitance": 1)"),
+        here + "/opacity: what emits is all there"},
+       {with_material(R"("reflectance": 0.5, "opacity": 1.5)"), here + "/opacity: 1.5 is outside 0..1"}});
 }
 
 TEST(BadScene, materials_conserve_energy) {
