@@ -59,11 +59,16 @@ std::string emitters_text(const scene::Scene& scene) {
   return text;
 }
 
+/// What is diffuse of it.
+std::string diffuse_text(const scene::Material& material, int channels) {
+  return material.is_diffuse() || !material.reflectance.is_zero() ? spectrum_text(material.reflectance, channels) : "-";
+}
+
 std::string materials_text(const scene::Scene& scene) {
   const bool photometric = scene.quantity == scene::Quantity::photometric;
-  Table table({"material", "reflectance", photometric ? "exitance lm/m2" : "exitance W/m2", "sides"});
+  Table table({"material", "type", "reflectance", photometric ? "exitance lm/m2" : "exitance W/m2", "sides"});
   for (const scene::Material& m : scene.materials)
-    table.add({m.name, spectrum_text(m.reflectance, scene.channel_count()),
+    table.add({m.name, type_of(m.finish), diffuse_text(m, scene.channel_count()),
                spectrum_text(m.exitance, scene.channel_count()), sides_text(m.sides)});
   return table.text();
 }
@@ -102,6 +107,7 @@ results::Record record_of(const scene::Scene& scene, const scene::Inspection& in
   for (const scene::Material& m : scene.materials)
     materials.push_back(results::Record()
                             .add("name", m.name)
+                            .add("type", type_of(m.finish))
                             .add("reflectance", m.reflectance, channels)
                             .add("exitance", m.exitance, channels)
                             .add("sides", sides_text(m.sides)));

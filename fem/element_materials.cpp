@@ -13,7 +13,7 @@ void require_diffuse(const scene::Scene& scene) {
     if (const scene::Material& material = scene.material(id); !material.is_diffuse())
       throw core::InputError("'" + scene.surface(id).name + "'",
                              "its material '" + material.name + "' is " + material.kind() +
-                                 ": radiosity knows what is diffuse and opaque; trace and render know this too");
+                                 ": radiosity knows what is diffuse and opaque, trace this too");
 }
 
 ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches) {

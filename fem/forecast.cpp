@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "fem/element_materials.h"
 #include "fem/goal/adaptive_elements.h"
 #include "fem/method_trial.h"
 #include "fem/radiosity_operator.h"
@@ -160,6 +161,7 @@ mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySetti
 }
 
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
+  require_diffuse(scene);
   if (solvers::solver_named(settings.solver).samples()) return forecast_of_sampling(scene, settings, run);
   require_compatible(settings);
   const mesh::ElementMesh mesh = settings.adaptive ? first_elements(scene, settings, *settings.adaptive)

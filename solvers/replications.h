@@ -27,7 +27,4 @@ class Replications {
   std::vector<ColumnMatrix> sums_;
 };
 
-/// t with P(|T| <= t) = confidence, of Student's distribution; to 1e-9.
-double student_t(double confidence, int degrees_of_freedom);
-
 }  // namespace interflect::solvers

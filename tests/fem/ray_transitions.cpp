@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/sample_sequence.h"
+#include "core/student_t.h"
 #include "fem/element_materials.h"
 #include "fem/radiosity_operator.h"
 #include "fem/space/polynomials.h"
@@ -255,7 +256,7 @@ std::pair<double, double> slope_of(const std::string& name) {
 
 // The 95 % interval of Sobol's slope is below -0.55; independent rays have -0.5.
 TEST(RayTransitions, of_sobol_points_are_better_than_independent_ones) {
-  const double t = solvers::student_t(.95, 7);
+  const double t = core::student_t(.95, 7);
   const auto [independent, error_of_independent] = slope_of("independent");
   EXPECT_NEAR(independent, -.5, t * error_of_independent + .01);
   const auto [sobol, error_of_sobol] = slope_of("sobol");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/student_t.h"
 #include "solvers/replications.h"
 #include "tests/solvers/six_faces.h"
 
@@ -96,7 +97,7 @@ TEST(RandomWalks, state_their_errors) {
       StoppingRule rule;
       rule.samples = name.rfind("gathering", 0) == 0 ? 32 * 12 * 40 : 32 * 400;
       make_solver(name)->advance(system, state, rule, run);
-      const double t = student_t(.95, 31);
+      const double t = core::student_t(.95, 31);
       for (Index a = 0; a < n; ++a) {
         const bool gathers = name.rfind("gathering", 0) == 0;
         if (!gathers && 32 * 400 * expected_scores(name, K, rho, e, exact, a) < 30) continue;
@@ -177,11 +178,11 @@ TEST(RandomWalks, refuse_what_they_cannot_answer) {
 }
 
 TEST(StudentT, is_what_tables_have) {
-  EXPECT_NEAR(student_t(.95, 1), 12.7062047, 1e-6);
-  EXPECT_NEAR(student_t(.95, 2), 4.30265273, 1e-7);
-  EXPECT_NEAR(student_t(.95, 9), 2.26215716, 1e-7);
-  EXPECT_NEAR(student_t(.99, 31), 2.74404192, 1e-6);
-  EXPECT_NEAR(student_t(.95, 10000), 1.96020126, 1e-6);
+  EXPECT_NEAR(core::student_t(.95, 1), 12.7062047, 1e-6);
+  EXPECT_NEAR(core::student_t(.95, 2), 4.30265273, 1e-7);
+  EXPECT_NEAR(core::student_t(.95, 9), 2.26215716, 1e-7);
+  EXPECT_NEAR(core::student_t(.99, 31), 2.74404192, 1e-6);
+  EXPECT_NEAR(core::student_t(.95, 10000), 1.96020126, 1e-6);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/student_t.h"
 #include "solvers/potential.h"
 #include "solvers/replications.h"
 #include "tests/solvers/six_faces.h"
@@ -166,7 +167,7 @@ TEST(Target, has_an_honest_error) {
       StoppingRule rule;
       rule.samples = 32 * 1000;
       make_solver(name)->advance(of.system(), state, rule, run);
-      if (std::abs(state.target(0) - exact) <= student_t(.95, 31) * state.target_error(0)) ++held;
+      if (std::abs(state.target(0) - exact) <= core::student_t(.95, 31) * state.target_error(0)) ++held;
     }
     EXPECT_GE(held, 181) << name;
     EXPECT_LE(held, 197) << name;
