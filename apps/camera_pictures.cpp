@@ -1,6 +1,9 @@
 #include "apps/camera_pictures.h"
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "core/log.h"
 
 namespace interflect::apps {
 
@@ -11,6 +14,24 @@ scene::CameraId camera_named(const scene::Scene& scene, const std::string& name)
   std::string known;
   for (const scene::Camera& camera : scene.cameras) known += (known.empty() ? "" : ", ") + camera.name;
   throw core::InputError("--camera " + name, scene.file.string() + " has " + known);
+}
+
+std::vector<scene::CameraId> drawable_cameras(const scene::Scene& scene) {
+  std::vector<scene::CameraId> drawable;
+  for (std::uint32_t c = 0; c < scene.cameras.size(); ++c)
+    if (const scene::Camera& camera = scene.cameras[c]; camera.is_pinhole())
+      drawable.push_back({c});
+    else
+      core::log::warning("camera '" + camera.name + "': elements are drawn by pinholes only, not by the projection '" +
+                         camera.projection_name() + "'");
+  return drawable;
+}
+
+std::optional<scene::Camera> drawable_camera(const scene::Scene& scene) {
+  const auto first =
+      std::find_if(scene.cameras.begin(), scene.cameras.end(), [](const auto& c) { return c.is_pinhole(); });
+  if (first == scene.cameras.end()) return {};
+  return *first;
 }
 
 CameraPicture picture_of(const measure::Method& method, const scene::Scene& scene, scene::CameraId camera, Run& run) {
@@ -32,16 +53,21 @@ CameraPicture picture_of(const measure::Method& method, const scene::Scene& scen
 }
 
 core::Image with_errors(const core::Image& radiance, const core::Image& error) {
-  std::vector<std::string> names = radiance.channels;
-  for (const std::string& name : radiance.channels) names.push_back(name + ".error");
-  core::Image both(radiance.width, radiance.height, names);
-  const int channels = static_cast<int>(radiance.channels.size());
+  core::Image named = error;
+  named.channels.clear();
+  for (const std::string& name : radiance.channels) named.channels.push_back(name + ".error");
+  return with_channels(radiance, named);
+}
+
+core::Image with_channels(const core::Image& image, const core::Image& more) {
+  std::vector<std::string> names = image.channels;
+  names.insert(names.end(), more.channels.begin(), more.channels.end());
+  core::Image both(image.width, image.height, names);
+  const int of_image = static_cast<int>(image.channels.size());
   for (int y = 0; y < both.height; ++y)
     for (int x = 0; x < both.width; ++x)
-      for (int c = 0; c < channels; ++c) {
-        both.at(x, y, c) = radiance.at(x, y, c);
-        both.at(x, y, channels + c) = error.at(x, y, c);
-      }
+      for (int c = 0; c < static_cast<int>(names.size()); ++c)
+        both.at(x, y, c) = c < of_image ? image.at(x, y, c) : more.at(x, y, c - of_image);
   return both;
 }
 

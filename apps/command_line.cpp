@@ -10,6 +10,10 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/format.h"
+#include "core/sample_sequence.h"
+#include "montecarlo/film/reconstruction_filter.h"
+#include "montecarlo/integrators.h"
+#include "montecarlo/render.h"
 
 namespace interflect::apps {
 namespace {
@@ -100,8 +104,26 @@ void add_trace(CLI::App& app, Command& chosen) {
                    "Picture to write: .exr (radiance, with standard errors) or .png; the other is "
                    "written beside it")
       ->required();
+  command->add_option("--filter", options->filter, "How points of the film count for pixels near them")
+      ->check(CLI::IsMember(montecarlo::filter_names()))
+      ->capture_default_str();
+  command
+      ->add_option("--sequence", options->sequence,
+                   core::format("Numbers that paths begin with; but for independent ones --spp is a multiple of %d",
+                                montecarlo::sequence_batches))
+      ->check(CLI::IsMember(core::sequence_names()))
+      ->capture_default_str();
+  command->add_flag(
+      "--resume", options->resume,
+      "Go on from the checkpoint that an earlier run left beside its picture, every minute and when it was "
+      "stopped");
   command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
       ->check(named("a folder"));
+  command
+      ->add_option("--integrator", options->integrator,
+                   "How those estimates are found: by paths from what is measured, or from lights")
+      ->check(CLI::IsMember(montecarlo::integrator_names()))
+      ->capture_default_str();
   add_accuracy(*command, options->accuracy, "those estimates");
   add_intersector(*command, options->intersector, "Ray caster");
 }

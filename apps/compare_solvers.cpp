@@ -100,7 +100,7 @@ results::Record record_of(const fem::SolverComparison& comparison) {
 }
 
 #ifdef INTERFLECT_WITH_VTK
-/// @param with_samples  those that sample have rays, and no rows
+/// @param with_samples  those that sample have rays, and no rows; with them in a panel of their own
 visual::Plot plot_of(const fem::SolverComparison& comparison, const std::string& x_label, bool with_samples,
                      double (*x)(const SolverScore::At&, double unknowns)) {
   visual::Plot plot{"linear solvers: error against " + x_label,
@@ -112,6 +112,7 @@ visual::Plot plot_of(const fem::SolverComparison& comparison, const std::string&
   for (const SolverScore& score : comparison.scores) {
     if (score.samples && !with_samples) continue;
     visual::Plot::Curve curve{score.solver, {}, {}};
+    if (with_samples) curve.panel = score.samples ? "those that sample" : "those that have the matrix";
     for (const SolverScore::At& at : score.history) {
       curve.x.push_back(x(at, static_cast<double>(comparison.unknowns)));
       curve.y.push_back(judged(score, at, comparison.of_goal));

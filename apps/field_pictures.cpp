@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/camera_pictures.h"
 #include "apps/display_or_warning.h"
 #include "apps/in_view.h"
 #include "apps/pictures.h"
@@ -37,32 +38,38 @@ core::Image radiosity_picture(const visual::Display& display, const SolvedScene&
   return visual::true_colour(display, solved.scene, solved.solution.mesh, field->mesh, of_points, look);
 }
 
+std::string quantity_of(const scene::Scene& scene) {
+  return scene.quantity == scene::Quantity::photometric ? "illuminance" : "irradiance";
+}
+
 core::Image irradiance_picture(const visual::Display& display, const SolvedScene& solved, const Camera& camera,
                                std::span<const double> shares, const SmoothField* field) {
   std::vector<double> values;
   for (const Spectrum& H : solved.solution.irradiance) values.push_back(solved.scene.weigh(H));
-  const bool photometric = solved.scene.quantity == scene::Quantity::photometric;
-  const std::string title =
-      std::string(photometric ? "illuminance [" : "irradiance [") + solved.scene.irradiance_unit() + "]";
-  const visual::FalseColour look{
-      .title = title, .caption = {}, .range = range_in_view(values, shares), .camera = camera};
+  const visual::FalseColour look{.title = quantity_of(solved.scene) + " [" + solved.scene.irradiance_unit() + "]",
+                                 .caption = {},
+                                 .range = range_in_view(values, shares),
+                                 .camera = camera};
   if (!field) return visual::false_colour(display, solved.scene, solved.solution.mesh, values, look);
   std::vector<double> of_points;
   for (const Spectrum& H : field->irradiance) of_points.push_back(solved.scene.weigh(H));
   return visual::false_colour(display, solved.scene, solved.solution.mesh, field->mesh, of_points, look);
 }
 
-/// How far elements' mean irradiance may be off, as a part of it: proved.
+/// How far elements' mean irradiance may be off: proved.  By orders of magnitude, and not as a part of it: in the dark
+/// everything may be off by all that it is.
 core::Image bounds_picture(const visual::Display& display, const SolvedScene& solved, const Camera& camera,
                            std::span<const double> shares) {
   std::vector<double> values;
   for (std::size_t i = 0; i < solved.solution.irradiance.size(); ++i) {
     const Interval& H = solved.bounds->enclosure.mean_irradiance()[i];
-    const double middle = solved.scene.weigh(H.lower + H.upper), width = solved.scene.weigh(H.upper - H.lower);
-    values.push_back(middle > 0 ? 100 * width / middle : 0);
+    values.push_back(0.5 * solved.scene.weigh(H.upper - H.lower));
   }
   const visual::FalseColour look{
-      .title = "irradiance known within [%]", .caption = {}, .range = range_in_view(values, shares), .camera = camera};
+      .title = quantity_of(solved.scene) + " known within \xc2\xb1 [" + solved.scene.irradiance_unit() + "]",
+      .caption = {},
+      .range = visual::logarithmic_range(values, shares),
+      .camera = camera};
   return visual::false_colour(display, solved.scene, solved.solution.mesh, values, look);
 }
 
@@ -71,16 +78,22 @@ core::Image bounds_picture(const visual::Display& display, const SolvedScene& so
 void write_field_pictures(const SolvedScene& solved, const SmoothField* field, const std::filesystem::path& folder) {
   const auto display = display_or_warning();
   if (!display) return;
-  std::vector<Camera> cameras(solved.scene.cameras.begin(), solved.scene.cameras.end());
-  if (cameras.empty()) cameras.emplace_back();
-  for (std::size_t k = 0; k < cameras.size(); ++k) {
-    const std::vector<double> shares = shares_in_view(*solved.rays, solved.solution.mesh, cameras[k]);
+  struct View {
+    Camera camera;
+    std::size_t place;  ///< among the scene's, which names the files
+  };
+  std::vector<View> views;
+  for (const scene::CameraId id : drawable_cameras(solved.scene))
+    views.push_back({solved.scene.camera(id), std::size_t{id.value}});
+  if (views.empty()) views.push_back({{}, 0});
+  for (const auto& [camera, k] : views) {
+    const std::vector<double> shares = shares_in_view(*solved.rays, solved.solution.mesh, camera);
     results::write_png(folder / picture_file("radiosity", k),
-                       radiosity_picture(*display, solved, cameras[k], shares, field));
+                       radiosity_picture(*display, solved, camera, shares, field));
     results::write_png(folder / picture_file("irradiance", k),
-                       irradiance_picture(*display, solved, cameras[k], shares, field));
+                       irradiance_picture(*display, solved, camera, shares, field));
     if (solved.bounds)
-      results::write_png(folder / picture_file("bounds", k), bounds_picture(*display, solved, cameras[k], shares));
+      results::write_png(folder / picture_file("bounds", k), bounds_picture(*display, solved, camera, shares));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "apps/table.h"
 #include "core/error.h"
 #include "core/format.h"
+#include "fem/point_of_view.h"
 
 namespace interflect::apps {
 namespace {
@@ -57,8 +58,10 @@ fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::sp
   if (fem::Goal::AtPoints goal = at_points(points, name); !goal.points.empty())
     return {name.empty() ? "sensors" : name, std::move(goal)};
   if (name.rfind(camera_prefix, 0) == 0)
-    if (const auto camera = scene.find_camera(name.substr(std::string(camera_prefix).size())))
+    if (const auto camera = scene.find_camera(name.substr(std::string(camera_prefix).size()))) {
+      fem::require_point_of_view(scene.camera(*camera));
       return {name, fem::Goal::InView{*camera}};
+    }
   for (const scene::SurfaceId id : scene.surface_ids())
     for (const scene::Side side : {scene::Side::front, scene::Side::back})
       if (scene.material(id).active(side) && scene.side_name(id, side) == name)

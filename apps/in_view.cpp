@@ -4,6 +4,7 @@
 
 #include "core/log.h"
 #include "results/tone_mapping.h"
+#include "scene/film_map.h"
 
 namespace interflect::apps {
 
@@ -16,10 +17,12 @@ std::vector<double> shares_in_view(const raycast::RayCaster& rays, const mesh::E
   std::vector<double> shares;
   for (const scene::SurfacePatch& patch : mesh.patches()) shares.push_back(camera ? 0.0 : patch.area);
   if (!camera) return shares;
+  const scene::FilmMap film(*camera);
   const int step = std::max(1, camera->width / rays_across);
   for (int y = step / 2; y < camera->height; y += step)
     for (int x = step / 2; x < camera->width; x += step) {
-      const auto hit = rays.closest({camera->eye, camera->direction(x + 0.5, y + 0.5)});
+      const auto ray = film.ray({x + 0.5, y + 0.5});
+      const auto hit = ray ? rays.closest({ray->origin, ray->direction}) : std::nullopt;
       if (const auto element = hit ? mesh.locate(*hit) : std::nullopt) shares[element->element.value] += 1;
     }
   if (std::all_of(shares.begin(), shares.end(), [](double share) { return share == 0; }))

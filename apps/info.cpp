@@ -90,7 +90,8 @@ void print_text(const scene::Scene& scene, const scene::Inspection& inspection) 
   std::printf("geometry       %s\n", closedness_text(inspection).c_str());
   std::printf("sensors        %zu\ncameras        %zu\n", scene.sensors.size(), scene.cameras.size());
   for (const scene::Camera& camera : scene.cameras)
-    std::printf("               %s, %d x %d pixels\n", camera.name.c_str(), camera.width, camera.height);
+    std::printf("               %s, %s%d x %d pixels\n", camera.name.c_str(),
+                camera.is_pinhole() ? "" : (camera.projection_name() + ", ").c_str(), camera.width, camera.height);
   for (const scene::Note& note : scene.repairs) std::printf("repair         %s\n", note.line().c_str());
 }
 

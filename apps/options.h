@@ -59,7 +59,10 @@ struct TraceOptions {
   std::filesystem::path scene, image;
   std::string camera;  ///< empty: the scene's first
   int samples = 64;
+  std::string filter = "box", sequence = "independent";
+  bool resume = false;              ///< from the checkpoint of an earlier run
   std::filesystem::path estimates;  ///< folder for surfaces.csv and sensors.csv; empty: none
+  std::string integrator = "path";  ///< of the estimates
   double accuracy = 0.01;
   std::string intersector = "embree";
 };

@@ -34,6 +34,10 @@ std::string picture_file(const std::string& name, std::size_t camera) {
 void write_comparisons(const SolvedScene& solved, const ValidateOptions& options, Run& run) try {
   for (std::uint32_t c = 0; c < solved.scene.cameras.size(); ++c) {
     run.throw_if_stopped("pictures");
+    if (const scene::Camera& camera = solved.scene.cameras[c]; camera.has_lens()) {
+      core::log::warning("camera '" + camera.name + "': radiosity knows no thin lens: no picture to compare");
+      continue;
+    }
     const core::Image fem = picture_of(solved.method(), solved.scene, {c}, run).radiance;
     const auto samples = static_cast<std::uint64_t>(options.picture_samples);
     const montecarlo::Rendering traced =

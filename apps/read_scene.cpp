@@ -2,6 +2,7 @@
 
 #include "core/format.h"
 #include "core/log.h"
+#include "results/image_file.h"
 #include "scene/reader.h"
 
 namespace interflect::apps {
@@ -9,7 +10,7 @@ namespace interflect::apps {
 namespace {
 
 scene::Scene read(const std::filesystem::path& file, SceneUse use) {
-  scene::Scene scene = scene::read_scene(file);
+  scene::Scene scene = scene::read_scene(file, results::read_radiance);
   if (use == SceneUse::light) scene::warn_of_darkness(scene);
   return scene;
 }

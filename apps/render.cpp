@@ -5,6 +5,7 @@
 #include "apps/commands.h"
 #include "apps/solution_files.h"
 #include "core/format.h"
+#include "fem/point_of_view.h"
 #include "results/image_file.h"
 
 namespace interflect::apps {
@@ -46,6 +47,7 @@ ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run
   results::require_image_extension(options.image);
   scene::Scene read = scene_to_solve(options.solve);
   const scene::CameraId camera = camera_named(read, options.camera);  // before the work
+  fem::require_point_of_view(read.camera(camera));
   SolveOptions of_solve = options.solve;
   of_solve.out = options.image.has_parent_path() ? options.image.parent_path() : ".";
   const auto solved = solve_scene(std::move(read), of_solve, common, run);

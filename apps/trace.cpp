@@ -3,11 +3,12 @@
 
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
+#include "apps/picture_checkpoint.h"
 #include "apps/read_scene.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "measure/surface_measurements.h"
-#include "montecarlo/path_tracer.h"
+#include "montecarlo/integrators.h"
 #include "montecarlo/render.h"
 #include "results/image_file.h"
 #include "results/output_directory.h"
@@ -17,7 +18,7 @@
 namespace interflect::apps {
 namespace {
 
-/// Surfaces and sensors by path tracing, in the columns that every method writes; a stopped run writes what it has.
+/// Surfaces and sensors by an integrator, in the columns that every method writes; a stopped run writes what it has.
 /// @throws core::Interrupted  if it has nothing for some of them
 void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run& run) {
   std::vector<measure::Measurement> asked;
@@ -30,10 +31,11 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run
       }
   const auto points = measure::sensor_points(scene);
   for (const measure::SensorPoint& point : points) asked.emplace_back(point.at);
-  montecarlo::PathTracerSettings settings;
+  montecarlo::IntegratorSettings settings;
   settings.target = options.accuracy;
   settings.intersector = options.intersector;
-  const std::vector<Estimate> found = montecarlo::PathTracer(settings).answer(scene, asked, run);
+  const std::vector<Estimate> found =
+      montecarlo::make_integrator(options.integrator, settings)->answer(scene, asked, run);
   std::vector<results::SurfaceRow> rows;
   for (std::size_t k = 0; k < sides.size(); ++k)
     rows.push_back(
@@ -47,7 +49,8 @@ struct Traced {
   std::string camera;
   std::uint64_t samples;  ///< a pixel
   std::filesystem::path exr, png;
-  std::filesystem::path estimates;  ///< their folder; empty where none were written
+  std::filesystem::path checkpoint;  ///< to go on from; empty where the run was not stopped
+  std::filesystem::path estimates;   ///< their folder; empty where none were written
   bool stopped;
 };
 
@@ -65,19 +68,40 @@ std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOp
   return options.estimates;
 }
 
+montecarlo::Rendering rendered(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
+                               const PictureCheckpoint& checkpoint, Run& run) {
+  montecarlo::FilmState state;
+  montecarlo::RenderCheckpoints checkpoints;
+  if (options.resume) {
+    state = checkpoint.read();
+    checkpoints.from = &state;
+  }
+  checkpoints.keep = [&](const montecarlo::FilmState& now) { checkpoint.write(now); };
+  const auto rays = raycast::make_ray_caster(options.intersector, scene);
+  try {
+    return montecarlo::render(scene, camera, render_settings(options), run, *rays, checkpoints);
+  } catch (const core::Interrupted&) {  // before there is a picture
+    core::log::warning("--resume goes on from " + checkpoint.file().string());
+    throw;
+  }
+}
+
 void print_text(const Traced& t) {
   std::printf("%s, %llu samples a pixel: %s and %s\n", t.camera.c_str(), static_cast<unsigned long long>(t.samples),
               t.exr.c_str(), t.png.c_str());
   if (!t.estimates.empty())
     std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(),
                 (t.estimates / "sensors.csv").c_str());
-  if (t.stopped) std::printf("stopped before all was done\n");
+  if (t.stopped)
+    std::printf("stopped before all was done%s\n",
+                t.checkpoint.empty() ? "" : (": --resume goes on from " + t.checkpoint.string()).c_str());
 }
 
 results::Record record_of(const Traced& t) {
   results::Record record;
   record.add("camera", t.camera).add("samples", t.samples).add("exr", t.exr.string()).add("png", t.png.string());
   if (!t.estimates.empty()) record.add("estimates", t.estimates.string());
+  if (!t.checkpoint.empty()) record.add("checkpoint", t.checkpoint.string());
   return record.add("stopped", t.stopped);
 }
 
@@ -90,10 +114,13 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   std::optional<results::OutputDirectory> pictures, estimates;
   if (options.image.has_parent_path()) pictures.emplace(options.image.parent_path());
   if (!options.estimates.empty()) estimates.emplace(options.estimates);
-  const montecarlo::Rendering rendering =
-      montecarlo::render(scene, camera, static_cast<std::uint64_t>(options.samples), run, options.intersector);
-  Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, false};
-  results::write_image(traced.exr.replace_extension(".exr"), with_errors(rendering.radiance, rendering.standard_error));
+  const PictureCheckpoint checkpoint(scene, camera, options, common);
+  const montecarlo::Rendering rendering = rendered(scene, camera, options, checkpoint, run);
+  Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, {}, false};
+  if (run.stop.stop_requested()) traced.checkpoint = checkpoint.file();
+  results::write_image(
+      traced.exr.replace_extension(".exr"),
+      with_channels(with_errors(rendering.radiance, rendering.standard_error), rendering.samples_a_pixel));
   results::write_image(traced.png.replace_extension(".png"), results::as_rgb(scene, rendering.radiance));
   traced.estimates = estimates_written(scene, options, run);
   traced.stopped = run.stop.stop_requested();

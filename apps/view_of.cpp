@@ -8,6 +8,7 @@
 #include "results/vtu.h"
 
 #ifdef INTERFLECT_WITH_VTK
+#include "apps/camera_pictures.h"
 #include "apps/display_or_warning.h"
 #include "apps/element_picture.h"
 #include "apps/in_view.h"
@@ -86,7 +87,7 @@ void write_view_of(const ViewedSurface& surface, const FactorRequest& request, c
   const auto display = display_or_warning();
   if (!display) return;
   const scene::Scene& scene = request.geometry.scene;
-  const auto camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
+  const auto camera = drawable_camera(scene);
   const std::vector<double> F = of_seeing(shares.F);
   write_element_picture(*display, beside(out, ".view.png"), scene, mesh, F,
                         {.title = "view factor to " + surface.name,

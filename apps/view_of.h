@@ -21,7 +21,7 @@ ViewedSurface viewed_surface(const std::string& name, const FactorRequest& reque
 
 /// Of every element the view factor to the surface, sum_{s in S} F_js, the share of j's view that S fills, with the sum
 /// of its entries' errors, row sums and their errors: F.view.vtu beside F.h5, and where VTK was built in F.view.png,
-/// from the scene's first camera, or from outside.
+/// from the scene's first pinhole camera, or from outside.
 void write_view_of(const ViewedSurface& surface, const FactorRequest& request, const results::FactorStore& store,
                    const raycast::RayCaster& rays, const std::filesystem::path& out);
 

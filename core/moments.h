@@ -14,11 +14,17 @@ namespace interflect::core {
 template <class T>
 class MomentsOf {
  public:
+  MomentsOf() = default;
+  /// As they were when count(), mean() and squared_deviations() told this.
+  MomentsOf(std::uint64_t count, const T& mean, const T& squared_deviations)
+      : count_(count), mean_(mean), squares_(squared_deviations) {}
+
   void add(const T& sample);
   void merge(const MomentsOf& other);
 
   std::uint64_t count() const { return count_; }
   const T& mean() const { return mean_; }
+  const T& squared_deviations() const { return squares_; }  ///< M2
   T variance() const;        ///< of one sample, unbiased; infinite below two samples
   T standard_error() const;  ///< of the mean; infinite below two samples
 

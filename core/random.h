@@ -64,15 +64,15 @@ class RandomNumbers {
  public:
   constexpr RandomNumbers(std::uint64_t seed, std::uint32_t stream, std::uint64_t index)
       : seed_(seed), index_(index), stream_(stream) {}
+  /// The same, but for the first ones, which are given: those of a sample sequence.
+  /// @param given  an even number of them, that outlive it
+  constexpr RandomNumbers(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, std::span<const double> given)
+      : given_(given), seed_(seed), index_(index), stream_(stream) {}
 
   /// Uniform in [0, 1).
   constexpr double next() {
-    if (used_ == 2) {
-      block_ = random_block(seed_, stream_, index_, next_block_++);
-      used_ = 0;
-    }
-    const std::size_t at = 2 * static_cast<std::size_t>(used_++);
-    return uniform_53(block_[at], block_[at + 1]);
+    if (used_ == 2) fill();
+    return pair_[static_cast<std::size_t>(used_++)];
   }
   /// Continue at dimension 2 * block: a decision owns its dimensions, whatever earlier ones consumed.
   constexpr void jump(std::uint32_t block) {
@@ -81,10 +81,22 @@ class RandomNumbers {
   }
 
  private:
+  constexpr void fill() {
+    const std::uint32_t block = next_block_++;
+    used_ = 0;
+    if (const std::size_t at = 2 * std::size_t{block}; at < given_.size()) {
+      pair_ = {given_[at], given_[at + 1]};
+    } else {
+      const RandomBlock bits = random_block(seed_, stream_, index_, block);
+      pair_ = {uniform_53(bits[0], bits[1]), uniform_53(bits[2], bits[3])};
+    }
+  }
+
+  std::span<const double> given_;
   std::uint64_t seed_, index_;
   std::uint32_t stream_;
   std::uint32_t next_block_ = 0;
-  RandomBlock block_{};
+  std::array<double, 2> pair_{};
   int used_ = 2;
 };
 

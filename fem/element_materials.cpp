@@ -9,6 +9,8 @@ namespace interflect::fem {
 using solvers::ColumnMatrix;
 
 void require_diffuse(const scene::Scene& scene) {
+  if (!scene.lights.empty())
+    throw core::InputError(scene.lights.first_name(), "radiosity knows lights that are surfaces alone, trace this too");
   for (const scene::SurfaceId id : scene.surface_ids())
     if (const scene::Material& material = scene.material(id); !material.is_diffuse())
       throw core::InputError("'" + scene.surface(id).name + "'",

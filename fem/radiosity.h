@@ -29,8 +29,8 @@ struct RadiositySettings {
   double row_tolerance = 0;  ///< on the largest row's sum of errors, max_i sum_j |dF_ij|; 0: none but the entries'
   int visibility_rays = 16;
   double visibility_error = 0;  ///< standard error of the visible part of a pair that rays are added up to; 0: none are
-  std::uint64_t samples = 0;  ///< of Monte Carlo methods: a pair, a row, or in all; 0: as tolerances ask
-  int resolution = 256;       ///< cells across a hemicube or a plane
+  std::uint64_t samples = 0;    ///< of Monte Carlo methods: a pair, a row, or in all; 0: as tolerances ask
+  int resolution = 256;         ///< cells across a hemicube or a plane
   double drop_below = 0;  ///< entries with F_ij and F_ji below it are left out, and accounted for; 0: all are stored
   std::string closure = "none";           ///< or a repair of row sums by its name in closure.h
   std::uint64_t environment_rays = 1296;  ///< an element: what of it sees no other, where an open scene's closure asks

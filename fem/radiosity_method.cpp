@@ -7,9 +7,11 @@
 #include "core/random.h"
 #include "fem/error_estimate.h"
 #include "fem/gather.h"
+#include "fem/point_of_view.h"
 #include "fem/point_view_factors.h"
 #include "fem/sum_noise.h"
 #include "geometry/overlap.h"
+#include "scene/film_map.h"
 
 namespace interflect::fem {
 
@@ -264,6 +266,8 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
   const int side = pixel_.side;
   const bool alone = side == 1;  // through the middle of the pixel, whose radiance it is then
   const scene::Camera& camera = scene_.camera(asked.camera);
+  require_point_of_view(camera);
+  const scene::FilmMap film(camera);
   core::RandomNumbers random(core::derived_seed(seed_, "pixels"), 0, key_of(asked));
   core::Moments radiance;
   Spectrum error, of_ray, inherited;
@@ -272,7 +276,8 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
     const int column = k % side, row = k / side;
     const double in_column = alone ? 0.5 : random.next(), in_row = alone ? 0.5 : random.next();
     const double x = asked.x + (column + in_column) / side, y = asked.y + (row + in_row) / side;
-    const auto hit = rays_.closest({camera.eye, camera.direction(x, y)});
+    const auto ray = film.ray({x, y});
+    const auto hit = ray ? rays_.closest({ray->origin, ray->direction}) : std::nullopt;
     const auto element = hit ? s_.mesh.locate(*hit) : std::nullopt;
     if (!element) {
       radiance.add(Spectrum::zero());  // nothing, or a black back

@@ -33,7 +33,7 @@ struct SolverComparison {
   std::vector<SolverScore> scores;
 };
 
-/// Solvers by name, to `stopping` of the settings each, on one operator: constants or polynomials, or values at nodes. 
+/// Solvers by name, to `stopping` of the settings each, on one operator: constants or polynomials, or values at nodes.
 /// The solution that they are held against is that of `automatic` to 1e-13.
 /// @param goal  the one number that is asked for, if it is one: errors are of it then, and so is the noise at which
 ///              those stop that sample

@@ -9,7 +9,8 @@ namespace interflect::montecarlo {
 namespace {
 
 // Dimensions: the place owns the first two blocks, whatever kind it is; the path owns the rest.
-constexpr std::uint32_t place_block = 0, pick_block = 1, path_block = 2;
+constexpr std::uint32_t place_block = 0, pick_block = 1, lens_block = 1, path_block = 2;
+constexpr std::uint32_t second_path_block = 1u << 30;  // no path comes that far
 
 template <class... F>
 struct Overloaded : F... {
@@ -18,13 +19,31 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce aggregates
 
+const ReconstructionFilter& box() {
+  static const std::unique_ptr<ReconstructionFilter> filter = make_filter("box");
+  return *filter;
+}
+
 }  // namespace
 
-Spectrum pixel_sample(const scene::Camera& camera, int x, int y, const PathEstimator& paths,
-                      core::RandomNumbers& numbers) {
+Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
+                     const PathEstimator& paths, core::RandomNumbers& numbers) {
   numbers.jump(place_block);
   const double u = numbers.next(), v = numbers.next();
-  return paths.radiance(camera.eye, camera.direction(x + u, y + v), numbers, path_block);
+  Vec2 lens = Vec2::Zero();
+  if (film.has_lens()) {
+    numbers.jump(lens_block);
+    const double r = numbers.next();
+    lens = scene::uniform_disk(r, numbers.next());
+  }
+  const auto radiance = [&](const Vec2& offset, std::uint32_t block) {
+    const auto ray = film.ray(Vec2(pixel.x + 0.5, pixel.y + 0.5) + offset, lens);
+    return ray ? paths.radiance(ray->origin, ray->direction, numbers, block) : Spectrum::zero();
+  };
+  const double negative = filter.negative();
+  const Spectrum found = radiance(filter.sample(u, v), path_block);
+  if (negative == 0) return found;
+  return (1 + negative) * found - negative * radiance(filter.sample_negative(u, v), second_path_block);
 }
 
 MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure::Measurement& asked) {
@@ -41,13 +60,15 @@ MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure:
   const auto pixel = [&](const measure::PixelRadiance& m) {
     if (m.camera.value >= scene.cameras.size())
       throw core::InputError("pixel radiance", "a camera of the scene expected");
-    camera_ = &scene.camera(m.camera);
-    if (m.x < 0 || m.y < 0 || m.x >= camera_->width || m.y >= camera_->height)
+    const scene::Camera& camera = scene.camera(m.camera);
+    scene::require_valid(camera);
+    if (m.x < 0 || m.y < 0 || m.x >= camera.width || m.y >= camera.height)
       throw core::InputError(core::format("pixel (%d, %d)", m.x, m.y),
-                             "a pixel of camera '" + camera_->name + "' expected");
+                             "a pixel of camera '" + camera.name + "' expected");
+    film_ = std::make_shared<const scene::FilmMap>(camera);
     kind_ = Kind::pixel;
     scale_ = inv_pi;
-    x_ = m.x, y_ = m.y;
+    pixel_ = {m.x, m.y};
   };
   std::visit(Overloaded{patch, point, flux, pixel}, asked);
 }
@@ -69,7 +90,7 @@ Spectrum MeasurementSampler::sample(const PathEstimator& paths, core::RandomNumb
     case Kind::point:
       return paths.irradiance(point_, numbers, path_block);
     case Kind::pixel:
-      return pixel_sample(*camera_, x_, y_, paths, numbers);
+      return film_sample(*film_, box(), pixel_, paths, numbers);
     case Kind::area:
       break;
   }

@@ -1,14 +1,22 @@
 #pragma once
 
+#include <memory>
+
 #include "measure/measurement.h"
+#include "montecarlo/film/reconstruction_filter.h"
 #include "montecarlo/path_estimator.h"
+#include "scene/film_map.h"
 
 namespace interflect::montecarlo {
 
-/// One sample of a pixel's radiance: a point uniform on the pixel, so that the mean is over its area on the image
-/// plane.
-Spectrum pixel_sample(const scene::Camera& camera, int x, int y, const PathEstimator& paths,
-                      core::RandomNumbers& numbers);
+struct PixelOnFilm {
+  int x, y;
+};
+
+/// One sample of a pixel's value: what comes to a point of the film, drawn by the filter (of a box uniform on the
+/// pixel), by way of a point uniform on the lens, where there is one.
+Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
+                     const PathEstimator& paths, core::RandomNumbers& numbers);
 
 /// A measurement made ready to be sampled.
 class MeasurementSampler {
@@ -37,8 +45,8 @@ class MeasurementSampler {
   std::vector<Region> regions_;  ///< area: where x lies
   AliasTable pick_;              ///< among the regions, by area
   Receiver point_{};
-  const scene::Camera* camera_ = nullptr;
-  int x_ = 0, y_ = 0;
+  std::shared_ptr<const scene::FilmMap> film_;  ///< pixel: where it is
+  PixelOnFilm pixel_{};
 };
 
 }  // namespace interflect::montecarlo

@@ -2,9 +2,7 @@
 
 #include "core/random.h"
 #include "montecarlo/bsdf/lambert.h"
-#include "montecarlo/emitters.h"
-#include "montecarlo/surface_optics.h"
-#include "raycast/ray_caster.h"
+#include "montecarlo/sight.h"
 
 namespace interflect::montecarlo {
 
@@ -16,17 +14,19 @@ struct Receiver {
 
 /// One path from where light arrives, one unbiased estimate: the rendering equation [Kajiya 1986]
 ///
-///   L(x -> o) = E(x) / pi + int f(i -> o) L(y -> x) |cos_i| d sigma_i,     y what is seen from x along i,
+///   L(x -> o) = L_e(x -> o) + int f(i -> o) L(y -> x) |cos_i| d sigma_i,     y what is seen from x along i,
 ///
-/// by recursion on y, whose direction the Bsdf of x draws.  Light that shines from y is found by two techniques: that
-/// ray, and a point drawn on the emitters.  Under the balance heuristic [Veach and Guibas 1995, eq. 11] both score
+/// by recursion on y, whose direction the Bsdf of x draws.  Light that shines from y, or from afar where the ray
+/// escapes, is found by two techniques: that ray, and a way drawn to a light that is picked for x (LightSet).  Under the balance
+/// heuristic [Veach and Guibas 1995, eq. 11] both score
 ///
-///   f |cos_x| E(y) / pi / (p_bsdf + p_light)  [1/sr],   p_light = pdf_area(y) r² / cos_y,
+///   f |cos_x| L(y) / (p_bsdf + p_light)  [1/sr],   p_light = p_pick pdf_solid_angle(y from x),
 ///
 /// since f / (p_1 + p_2) does not know which of the two drew y: no singularity where walls and lights meet.  What is
-/// delta at x finds light by the ray alone.  Through panes and masks light goes straight on: shadow rays are weakened
-/// there, a ray passes without a new direction, and both weigh as if nothing were there (any weights that add up to 1
-/// are right).
+/// delta at x finds light by the ray alone; a light that is delta, of irradiance H, is found by its pick alone, which
+/// scores f |cos_x| H / p_pick.  Balls of light (scene::SphereLight) end rays as surfaces do.  Through panes and masks
+/// light goes straight on: shadow rays are weakened there, a ray passes without a new direction, and both weigh as if
+/// nothing were there (any weights that add up to 1 are right).
 ///
 /// A path goes on with probability q = min(0.999, max_c T_c), T the product of f |cos| / (p q) so far, but for what
 /// radiance gains or loses as the square of the index does: never cut by length.
@@ -43,11 +43,11 @@ class PathEstimator {
   Spectrum radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers, std::uint32_t block) const;
 
   const scene::Scene& scene() const { return scene_; }
-  const Emitters& emitters() const { return emitters_; }
+  const LightSet& lights() const { return lights_; }
 
-  /// What one vertex of a path can add to an irradiance at most where all is diffuse: the largest exitance by each of
-  /// the two techniques.
-  Spectrum largest_score() const { return 2 * emitters_.max_exitance(); }
+  /// What one vertex of a path can add to an irradiance at most where all is diffuse, by the two techniques together
+  /// (beside points of light there is no such bound: LightSet::largest_find).
+  Spectrum largest_score() const { return 2 * lights_.largest_find(); }
 
  private:
   /// Where a path scatters.
@@ -60,7 +60,7 @@ class PathEstimator {
   /// A ray, and where its direction was drawn.
   struct Drawn {
     raycast::Ray ray;
-    Vec3 from;               ///< the last place that was not passed straight
+    Place from;              ///< the last that was not passed straight
     double pdf_solid_angle;  ///< 0: delta, or of the eye
   };
   /// What a path has found, and what further finds are worth.
@@ -71,14 +71,16 @@ class PathEstimator {
 
   void follow(Vertex at, Carried& path, core::RandomNumbers& numbers, std::uint32_t block) const;
   std::optional<Vertex> arrive(const Drawn& drawn, Carried& path) const;
-  Spectrum from_emitters(const Vertex& at, double pick, double u, double v) const;
+  static Place place_of(const Vertex& at);
+  Spectrum from_lights(const Vertex& at, const Place& place, double pick, double u, double v) const;
   Spectrum emitted(const Drawn& drawn, const scene::SurfacePoint& hit) const;
-  Spectrum let_pass(const raycast::Segment& segment) const;
+  Spectrum escaped(const Drawn& drawn) const;
+  Spectrum shines(std::uint32_t light, const Drawn& drawn, const Vec3& from) const;
 
   const scene::Scene& scene_;
-  const raycast::RayCaster& caster_;
-  Emitters emitters_;
+  LightSet lights_;
   SurfaceOptics optics_;
+  Sight sight_;
   Lambert receiver_{Spectrum(1)};
 };
 

@@ -29,8 +29,9 @@ std::vector<MeasurementSampler> samplers_of(const scene::Scene& scene, std::span
   return samplers;
 }
 
-SamplingTarget target_of(const PathTracerSettings& settings, const scene::Scene& scene) {
-  return {settings.target, settings.target * settings.target_floor * mean_irradiance_scale(scene),
+SamplingTarget target_of(const PathTracerSettings& settings, const PathEstimator& paths) {
+  return {settings.target,
+          settings.target * settings.target_floor * mean_irradiance_scale(paths.scene(), paths.lights().flux()),
           std::min(fewest_samples, settings.max_samples), settings.max_samples};
 }
 
@@ -79,10 +80,10 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
   require_valid(settings_);
   const std::vector<MeasurementSampler> measurements = samplers_of(scene, asked);
   const PathEstimator paths(scene, caster);
-  if (paths.emitters().empty())
+  if (paths.lights().empty())
     return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
 
-  const SamplingTarget target = target_of(settings_, scene);
+  const SamplingTarget target = target_of(settings_, paths);
   const std::vector<std::uint64_t> counts = settings_.samples > 0
                                                 ? std::vector<std::uint64_t>(asked.size(), settings_.samples)
                                                 : plan_samples(measurements, paths, target, run).counts;
@@ -109,9 +110,9 @@ PathTracer::Trial PathTracer::trial(const scene::Scene& scene, std::span<const m
   const std::vector<MeasurementSampler> measurements = samplers_of(scene, tried);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const PathEstimator paths(scene, *caster);
-  if (paths.emitters().empty()) return {};
+  if (paths.lights().empty()) return {};
 
-  SamplingTarget target = target_of(settings_, scene);
+  SamplingTarget target = target_of(settings_, paths);
   if (settings_.samples > 0) target.absolute = std::numeric_limits<double>::infinity();  // first pilots, for the speed
   const auto start = std::chrono::steady_clock::now();
   const SamplingPlan plan = plan_samples(measurements, paths, target, run);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "core/image.h"
 #include "core/run.h"
+#include "montecarlo/film/film_state.h"
 #include "raycast/ray_caster.h"
 #include "scene/scene.h"
 
@@ -12,18 +14,50 @@ namespace interflect::montecarlo {
 
 /// A picture with what is known of its noise.
 struct Rendering {
-  core::Image radiance;        ///< L per pixel and channel [W/(m² sr) | cd/m²]
-  core::Image standard_error;  ///< of the radiance, same unit; infinite where a pixel has a single sample
-  std::uint64_t samples = 0;   ///< that every pixel has; more in some, if the run was stopped within a pass
+  core::Image radiance;         ///< L per pixel and channel [W/(m² sr) | cd/m²]
+  core::Image standard_error;   ///< of the radiance, same unit; infinite where a pixel has a single sample
+  core::Image samples_a_pixel;  ///< one channel, "samples"
+  std::uint64_t samples = 0;    ///< that every pixel has; more in some, if the run was stopped within a pass
 };
 
-/// Path-traced picture: the mean radiance over each pixel's area, `samples` paths a pixel (see PathTracer for the
-/// estimator and for the standard error of pixels that saw nothing).
+struct RenderSettings {
+  std::uint64_t samples = 64;  ///< a pixel; but for independent ones a multiple of `sequence_batches`
+  std::string filter = "box";
+  std::string sequence = "independent";
+};
+
+/// Samples of a sequence that is not independent come in so many randomisations of it, each in all pixels by itself:
+/// they say how large errors are.
+inline constexpr int sequence_batches = 16;
+
+/// How a rendering survives the end of its program.
+struct RenderCheckpoints {
+  const FilmState* from = nullptr;  ///< the state to go on from; null: from the beginning
+  double seconds_between = 60;
+  /// Called with the state after so long, and at a stop; empty: nothing is kept.
+  std::function<void(const FilmState& state)> keep = {};
+};
+/// Rows and columns of the state of a picture.
+std::pair<Index, Index> render_state_size(const scene::Scene& scene, scene::CameraId camera,
+                                          const RenderSettings& settings);
+
+/// Path-traced picture: the mean radiance over each pixel's area on the film (scene::Camera), or what the filter makes
+/// of the film, `samples` paths a pixel (see PathTracer for the estimator and for the standard error of pixels that saw
+/// nothing).  What no ray sees, outside of a fisheye's disk, is exactly 0.
 ///
-/// Sample k of a pixel is keyed by (seed, pixel, k): same bits for any number of threads.  It is rendered in passes
-/// that double the samples of every pixel, and a run that is stopped gives the whole picture with the samples so far.
-/// @throws core::Interrupted  if it is stopped before every pixel has a sample
-/// @throws core::InputError   if there is no such camera, or no samples are asked for
+/// Sample k of a pixel is keyed by (seed, pixel, k): same bits for any number of threads, and for a run that goes on
+/// from where another was stopped, with more samples too.  It is rendered in passes over all pixels, and a run that is
+/// stopped gives the whole picture with the samples so far.
+///
+/// Of a sequence the first numbers of a path are its points', those of the film, the lens and four vertices, each
+/// pixel's by randomisations of its own.
+/// @throws core::Interrupted  if it is stopped before every pixel has a sample, after its state was kept
+/// @throws core::InputError   if there is no such camera, or no samples are asked for, or a filter or sequence that is
+///                            not known, or for a state that is none of this picture or has more samples
+Rendering render(const scene::Scene& scene, scene::CameraId camera, const RenderSettings& settings, Run& run,
+                 const raycast::RayCaster& caster, const RenderCheckpoints& checkpoints = {});
+
+/// Means over pixels, of independent samples.
 Rendering render(const scene::Scene& scene, scene::CameraId camera, std::uint64_t samples, Run& run,
                  const std::string& intersector = "embree");
 /// The same with a ray caster of the scene that is there already.

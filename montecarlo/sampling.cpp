@@ -71,14 +71,14 @@ std::vector<Tally> sample_all(std::span<const MeasurementSampler> measurements, 
   return tallies;
 }
 
-double mean_irradiance_scale(const scene::Scene& scene) {
+double mean_irradiance_scale(const scene::Scene& scene, const Spectrum& flux) {
   const double white = scene.weigh(Spectrum(1));
   double absorbing = 0;
   for (const scene::SurfaceId id : scene.surface_ids())
     for (const scene::Side side : {scene::Side::front, scene::Side::back})
       if (scene.material(id).active(side))
         absorbing += scene.area(id) * (1 - scene.weigh(scene.material(id).reflectance_of(side)) / white);
-  return absorbing > 0 ? scene.weigh(scene.emitted_flux()) / absorbing : 0;
+  return absorbing > 0 ? scene.weigh(flux) / absorbing : 0;
 }
 
 SamplingPlan plan_samples(std::span<const MeasurementSampler> measurements, const PathEstimator& paths,

@@ -50,7 +50,8 @@ SamplingPlan plan_samples(std::span<const MeasurementSampler> measurements, cons
 
 /// Mean irradiance of all surfaces that can reflect if the scene were closed and well mixed: Phi / sum A (1 - rho), in
 /// weighted channels [lx | W/m²].  A scale, not an answer.
-double mean_irradiance_scale(const scene::Scene& scene);
+/// @param flux  Phi of all lights, those from afar by what they send towards the scene
+double mean_irradiance_scale(const scene::Scene& scene, const Spectrum& flux);
 
 /// Enough to meet the rare bright path that makes most of the variance.
 inline constexpr std::uint64_t pilot_samples = 1024;

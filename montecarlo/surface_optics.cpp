@@ -11,6 +11,7 @@ SurfaceOptics::SurfaceOptics(const scene::Scene& scene) {
   }
   for (const scene::SurfaceId id : scene.surface_ids()) {
     bsdf_.push_back(of_materials_[scene.surface(id).material.value].get());
+    if (bsdf_.back() != nullptr && bsdf_.back()->mirrors()) any_mirror_ = id;
     for (const scene::Side side : {scene::Side::front, scene::Side::back})
       exitance_.push_back(scene.material(id).exitance_of(side));
   }

@@ -19,6 +19,8 @@ class SurfaceOptics {
   }
   /// Null: black.
   const Bsdf* bsdf(scene::SurfaceId surface) const { return bsdf_[surface.value]; }
+  /// A surface of which some is a mirror, smooth glass or the like.
+  std::optional<scene::SurfaceId> any_mirror() const { return any_mirror_; }
   /// Whether light passes straight through any surface.
   bool any_lets_pass() const { return any_lets_pass_; }
 
@@ -27,6 +29,7 @@ class SurfaceOptics {
   std::vector<const Bsdf*> bsdf_;
   std::vector<std::unique_ptr<Bsdf>> of_materials_;
   bool any_lets_pass_ = false;
+  std::optional<scene::SurfaceId> any_mirror_;
 };
 
 /// The normal of the front, whichever side a point lies on.

@@ -16,6 +16,13 @@ std::string exr_bytes(const core::Image& image);
 /// @throws core::InputError  naming the file
 core::Image read_exr(const std::filesystem::path& file);
 
+/// Radiance's RGBE pictures (.hdr, .pic): channels R, G, B, with 8 bits and a common exponent.
+/// @throws core::InputError  naming the file
+core::Image read_hdr(const std::filesystem::path& file);
+/// A picture of radiance: .exr, .hdr or .pic.
+/// @throws core::InputError  for another extension, or if the file cannot be read
+core::Image read_radiance(const std::filesystem::path& file);
+
 /// PNG file contents, 8 bits a channel, of an image of 1, 3 or 4 channels for display: [0, 1], already encoded;
 /// clipped.
 std::string png_bytes(const core::Image& display);

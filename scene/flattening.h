@@ -20,7 +20,7 @@ struct Flattened {
 ///
 ///   d = N^+ r,   N = their normals, r = their distances to it,
 ///
-/// with planes about as they are (within some ten degrees) taken for one, since where two such meet is anywhere. 
+/// with planes about as they are (within some ten degrees) taken for one, since where two such meet is anywhere.
 /// Planes are fitted anew and the step repeated while that helps; boxes and rooms, three planes a corner, need one.  A
 /// polygon that stays bent, as in a finely tiled wall where every step spreads by one tile, is flattened by itself in
 /// the end.

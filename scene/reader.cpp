@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "scene/io/geometry_reader.h"
+#include "scene/io/light_reader.h"
 #include "scene/io/mesh_reader.h"
 #include "scene/io/question_reader.h"
 #include "scene/io/text_file.h"
@@ -14,10 +15,10 @@ namespace {
 
 void require_format(const io::JsonNode& root) {
   if (!root.is_object()) root.fail("a scene is a JSON object");
-  for (const char* key : {"luminaires", "photometry", "sky"})
+  for (const char* key : {"luminaires", "photometry"})
     if (root.has(key)) root.at(key).fail(std::string("this version does not know \"") + key + "\"");
   root.only({"$schema", "format", "units", "up", "quantity", "channels", "weights", "north_deg", "materials",
-             "geometry", "sensors", "cameras", "expected"});
+             "geometry", "lights", "sky", "sensors", "cameras", "expected"});
   if (root.at("format").string() != "interflect/scene/1")
     root.at("format").fail("\"interflect/scene/1\" is expected, not \"" + io::shown_word(root.at("format").string()) +
                            "\"");
@@ -62,7 +63,8 @@ void require_no_mesh(const std::filesystem::path& file) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
+Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                  const PictureReader& read_picture) {
   const io::JsonDocument document(text, name);
   const io::JsonNode root = document.root();
   require_format(root);
@@ -77,6 +79,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   io::GeometryReader(builder, materials, unit, folder, name).read(root.at("geometry"));
   if (builder.scene().surfaces.empty()) root.at("geometry").fail("a scene has at least one surface");
   materials.finish(builder, name);
+  if (root.has("lights")) io::read_lights(root.at("lights"), unit, builder.scene());
+  if (root.has("sky")) io::read_sky(root.at("sky"), folder, read_picture, builder.scene());
   if (root.has("sensors")) io::read_sensors(root.at("sensors"), unit, builder.scene());
   if (root.has("cameras")) io::read_cameras(root.at("cameras"), unit, builder.scene());
   if (root.has("expected")) io::read_expected(root.at("expected"), builder.scene());
@@ -86,16 +90,16 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file) {
+Scene read_scene(const std::filesystem::path& file, const PictureReader& read_picture) {
   require_no_mesh(file);
   const std::string text = io::read_bytes(file, file.string());
-  Scene scene = parse_scene(text, file.string(), file.parent_path());
+  Scene scene = parse_scene(text, file.string(), file.parent_path(), read_picture);
   scene.file = file;
   return scene;
 }
 
 void warn_of_darkness(Scene& scene) {
-  if (scene.emitted_flux().is_zero())
+  if (scene.emitted_flux().is_zero() && scene.lights.empty())
     scene.warnings.push_back({scene.file.string(), "nothing emits: everything will be dark"});
   for (const Material& material : scene.materials)
     if (material.thermal && !material.thermal->temperature)

@@ -8,6 +8,7 @@
 #include "geometry/box.h"
 #include "geometry/polygon.h"
 #include "scene/camera.h"
+#include "scene/light.h"
 #include "scene/material.h"
 #include "scene/place.h"
 #include "scene/sensor.h"
@@ -56,6 +57,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Surface> surfaces;
   std::vector<Facet> facets;
+  Lights lights;  ///< beside surfaces that emit
   std::vector<Sensor> sensors;
   std::vector<Camera> cameras;
   std::vector<Expected> expected;

@@ -3,7 +3,7 @@
 
 cmake_minimum_required(VERSION 3.25)
 set(program ${CMAKE_CURRENT_LIST_DIR}/../build/release/bin/interflect)
-set(scenes cornell_box office two_rooms cornell_mcguire holodeck)
+set(scenes cornell_box office two_rooms cornell_mcguire)
 
 # "0.004248" -> "0.42 %"
 function(percent value out)

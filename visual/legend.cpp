@@ -37,22 +37,37 @@ Measured measured(const Legend& legend, int size) {
   m.bar = (size * 3) / 2;
   const std::vector<double> ticks = ticks_of(legend.range);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : legend.range.high - legend.range.low;
+  const bool two_sided = legend.range.low < 0 && legend.open_below;
   for (double t : ticks) {
-    std::string label = tick_label(t, step);
-    const double near = 1e-6 * step;
-    if (legend.open_above && t > legend.range.high - near) label += "+";
-    if (legend.open_below && t < legend.range.low + near) label = "< " + label;
+    std::string label = tick_label(t, legend.range.logarithmic ? t : step);
+    constexpr double near = 1e-6;
+    if (legend.open_above && legend.range.part(t) > 1 - near) label = two_sided ? "> " + label : label + "+";
+    if (legend.open_below && legend.range.part(t) < near) label = "< " + label;
     m.ticks.push_back({legend.range.part(t), set_in_type(label, size)});
     m.labels = std::max(m.labels, m.ticks.back().label.width);
   }
   return m;
 }
 
+/// Of a bar that goes on: a triangle in the colour of its end.
+/// @param end, away  the row beside the bar's last one, and the step from row to row
+void draw_tip(core::Image& canvas, int left, int width, int end, int away, int tip, int line, results::Colour colour) {
+  for (int k = 0; k <= tip; ++k) {
+    const int part = (width * (tip - k)) / tip, at = left + (width - part) / 2, row = end + k * away;
+    fill(canvas, at - line, row, part + 2 * line, 1, faint);
+    fill(canvas, at, row, part, 1, colour);
+  }
+}
+
 void draw_bar(core::Image& canvas, const Legend& legend, const Measured& m, int left, int top, int height, int size) {
-  const int line = std::max(1, size / 16);
+  const int line = std::max(1, size / 16), tip = (2 * m.bar) / 3;
+  if (legend.open_above) top += tip, height -= tip;
+  if (legend.open_below) height -= tip;
   fill(canvas, left - line, top - line, m.bar + 2 * line, height + 2 * line, faint);
   for (int y = 0; y < height; ++y)
     fill(canvas, left, top + y, m.bar, 1, results::colour_of(legend.map, 1 - (y + 0.5) / height));
+  if (legend.open_above) draw_tip(canvas, left, m.bar, top - 1, -1, tip, line, results::colour_of(legend.map, 1));
+  if (legend.open_below) draw_tip(canvas, left, m.bar, top + height, 1, tip, line, results::colour_of(legend.map, 0));
   for (const Measured::Tick& tick : m.ticks) {
     const int y = top + static_cast<int>(std::lround((1 - tick.part) * (height - 1)));
     fill(canvas, left + m.bar, y - line / 2, size / 3, line, faint);

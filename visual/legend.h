@@ -13,8 +13,9 @@ struct Legend {
   std::string title;  ///< "irradiance [lx]"
   results::ColourMap map = results::ColourMap::plasma;
   Range range;
-  bool open_above = false;  ///< values above the range exist: its end is labelled "500+"
-  bool open_below = false;
+  bool open_above =
+      false;  ///< values above the range exist: its end is labelled "500+", or "> 10" where both ends are open
+  bool open_below = false;  ///< "< -10"; open ends are pointed
 };
 
 /// The picture with a white margin, a caption over it (if not empty) and a legend at its right; wide enough for the

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "results/tone_mapping.h"
+#include "visual/faces.h"
 #include "visual/legend.h"
 #include "visual/raster.h"
 #include "visual/shading.h"
@@ -14,7 +15,7 @@ namespace interflect::visual {
 
 namespace {
 
-constexpr results::Colour white{255, 255, 255}, black{0, 0, 0}, dark_back{70, 70, 70};
+constexpr results::Colour white{255, 255, 255}, pale{216, 216, 216}, black{0, 0, 0}, dark_back{70, 70, 70};
 
 std::vector<double> areas_of(const mesh::ElementMesh& mesh) {
   std::vector<double> areas;
@@ -38,13 +39,58 @@ std::string with_squares(std::string text) {
   return text;
 }
 
+/// The face of each polygon, from 1, of elements that were drawn as `pieces` polygons each.
+template <class Pieces>
+std::vector<std::uint32_t> faces_of_polygons(const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                                             const Pieces& pieces) {
+  std::vector<std::uint32_t> out;
+  const std::vector<std::uint32_t> faces = faces_of(scene, mesh);
+  for (std::size_t e = 0; e < faces.size(); ++e) out.insert(out.end(), pieces(e), faces[e] + 1);
+  return out;
+}
+
+std::vector<std::uint32_t> faces_of_polygons(const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                                             const mesh::SmoothMesh& smooth, std::size_t polygons) {
+  std::vector<std::uint32_t> out;
+  const std::vector<std::uint32_t> faces = faces_of(scene, mesh);
+  for (std::uint32_t e : smooth.element) out.insert(out.end(), polygons / smooth.element.size(), faces[e] + 1);
+  return out;
+}
+
 /// Where one looks from, and what is behind everything.
 void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh& mesh,
               const std::optional<scene::Camera>& camera, int width, int height, results::Colour backs,
               results::Colour behind) {
   raster.camera = camera ? *camera : outside_view(scene, width, height);
-  raster.background = camera ? behind : white;
+  raster.background = behind;
   if (camera) append(raster.fronts, black_backs(scene, mesh, backs));
+  raster.faces.resize(raster.fronts.sizes.size(), Samples::back);
+}
+
+core::Image false_coloured(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                           Raster raster, const Legend& legend, const FalseColour& options) {
+  raster.edges = options.edges;
+  raster.outlines = options.outlines;
+  set_view(raster, scene, mesh, options.camera, options.width, options.height, dark_back,
+           options.map == results::ColourMap::blue_white_red ? pale : white);
+  return framed(rasterised(display, raster), options.caption, &legend);
+}
+
+core::Image true_coloured(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                          Raster raster, const TrueColour& options) {
+  set_view(raster, scene, mesh, options.camera, options.width, options.height, black, options.camera ? black : white);
+  const core::Image picture = rasterised(display, raster);
+  return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
+}
+
+Legend legend_of(const FalseColour& options, const Range& range, std::span<const double> values) {
+  if (!(range.high > range.low)) throw core::PreconditionError("picture: an ascending range expected");
+  Legend legend{with_squares(options.title), options.map, range, false, false};
+  for (const double v : values) {
+    legend.open_above = legend.open_above || v > range.high;
+    legend.open_below = legend.open_below || v < range.low;
+  }
+  return legend;
 }
 
 }  // namespace
@@ -53,20 +99,14 @@ core::Image false_colour(const Display& display, const scene::Scene& scene, cons
                          std::span<const double> values, const FalseColour& options) {
   require_size(values.size(), mesh);
   const bool diverging = options.map == results::ColourMap::blue_white_red;
-  Legend legend{with_squares(options.title), options.map, {}, false, false};
-  legend.range = options.range ? *options.range : range_of(values, areas_of(mesh), diverging);
-  if (!(legend.range.high > legend.range.low)) throw core::PreconditionError("picture: an ascending range expected");
+  const Legend legend =
+      legend_of(options, options.range ? *options.range : range_of(values, areas_of(mesh), diverging), values);
   std::vector<results::Colour> colours;
-  for (double v : values) {
-    colours.push_back(results::colour_of(options.map, legend.range.part(v)));
-    legend.open_above = legend.open_above || v > legend.range.high;
-    legend.open_below = legend.open_below || v < legend.range.low;
-  }
+  for (double v : values) colours.push_back(results::colour_of(options.map, legend.range.part(v)));
   Raster raster;
   raster.fronts = flat(mesh, colours);
-  raster.edges = options.edges;
-  set_view(raster, scene, mesh, options.camera, options.width, options.height, dark_back, white);
-  return framed(rasterised(display, raster), options.caption, &legend);
+  raster.faces = faces_of_polygons(scene, mesh, [](std::size_t) { return 1; });
+  return false_coloured(display, scene, mesh, std::move(raster), legend, options);
 }
 
 core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
@@ -82,14 +122,14 @@ core::Image true_colour(const Display& display, const scene::Scene& scene, const
   Raster raster;
   if (options.smooth) {
     raster.fronts = smooth(mesh, rgb, bright);
+    raster.faces = faces_of_polygons(scene, mesh, [&](std::size_t e) { return mesh.patches()[e].corners; });
   } else {
     std::vector<results::Colour> colours;
     for (const auto& colour : rgb) colours.push_back(display_colour(colour, bright));
     raster.fronts = flat(mesh, colours);
+    raster.faces = faces_of_polygons(scene, mesh, [](std::size_t) { return 1; });
   }
-  set_view(raster, scene, mesh, options.camera, options.width, options.height, black, black);
-  const core::Image picture = rasterised(display, raster);
-  return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
+  return true_coloured(display, scene, mesh, std::move(raster), options);
 }
 
 core::Image false_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
@@ -97,16 +137,12 @@ core::Image false_colour(const Display& display, const scene::Scene& scene, cons
                          const FalseColour& options) {
   if (!options.range || of_points.size() != smooth.points.size())
     throw core::PreconditionError("picture: a range, and one value per point expected");
-  Legend legend{with_squares(options.title), options.map, *options.range, false, false};
-  for (const double v : of_points) {
-    legend.open_above = legend.open_above || v > legend.range.high;
-    legend.open_below = legend.open_below || v < legend.range.low;
-  }
+  const Legend legend = legend_of(options, *options.range, of_points);
   Raster raster;
   raster.fronts =
       curved(smooth, of_points, [&](double v) { return results::colour_of(options.map, legend.range.part(v)); });
-  set_view(raster, scene, mesh, options.camera, options.width, options.height, dark_back, white);
-  return framed(rasterised(display, raster), options.caption, &legend);
+  raster.faces = faces_of_polygons(scene, mesh, smooth, raster.fronts.sizes.size());
+  return false_coloured(display, scene, mesh, std::move(raster), legend, options);
 }
 
 core::Image true_colour(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
@@ -116,9 +152,8 @@ core::Image true_colour(const Display& display, const scene::Scene& scene, const
     throw core::PreconditionError("picture: a white, and one value per point expected");
   Raster raster;
   raster.fronts = curved(smooth, of_points, options.white);
-  set_view(raster, scene, mesh, options.camera, options.width, options.height, black, black);
-  const core::Image picture = rasterised(display, raster);
-  return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
+  raster.faces = faces_of_polygons(scene, mesh, smooth, raster.fronts.sizes.size());
+  return true_coloured(display, scene, mesh, std::move(raster), options);
 }
 
 }  // namespace interflect::visual

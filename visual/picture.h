@@ -16,7 +16,8 @@
 /// Pictures of values on elements, drawn off-screen.
 ///
 /// A view is a camera of the scene, framed pixel by pixel as the path tracer frames it (sides without an element are
-/// drawn dark); or, without one, from outside, through the walls whose backs one would see.
+/// drawn dark); or, without one, from outside, through the walls whose backs one would see.  What is beside everything
+/// is white in false colour, and grey where white is a colour of the map.
 namespace interflect::visual {
 
 /// Numbers as colours, with a legend.
@@ -24,11 +25,12 @@ struct FalseColour {
   std::string title;    ///< of the legend, with the unit: "irradiance [lx]" ("m2" is set as m²)
   std::string caption;  ///< over the picture
   results::ColourMap map = results::ColourMap::plasma;
-  /// Default: 0 to the 99th percentile by area, rounded up; symmetric for blue_white_red.
+  /// May be logarithmic.  Default: 0 to the 99th percentile by area, rounded up; symmetric for blue_white_red.
   std::optional<Range> range = {};
   std::optional<scene::Camera> camera = {};
   int width = 1200, height = 900;  ///< of the view from outside [pixels]; a camera has its own
   bool edges = false;              ///< of the elements
+  bool outlines = true;            ///< of faces of bodies, which one colour would hide
 };
 
 /// @param values  one per element; NaN: grey

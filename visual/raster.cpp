@@ -14,6 +14,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "core/error.h"
 #include "core/format.h"
@@ -21,6 +23,8 @@
 namespace interflect::visual {
 
 namespace {
+
+using results::Colour;
 
 /// The scene within a unit box, because graphics cards compute in single precision.
 struct Frame {
@@ -35,7 +39,7 @@ Frame frame_of(const Raster& raster) {
   return {0.5 * (box.min() + box.max()), 1 / std::max(box.diagonal().norm(), 1e-300)};
 }
 
-vtkNew<vtkPolyData> poly_data(const Polygons& polygons, const Frame& frame) {
+vtkNew<vtkPolyData> poly_data(const Polygons& polygons, std::span<const Colour> colour_of, const Frame& frame) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
@@ -46,9 +50,8 @@ vtkNew<vtkPolyData> poly_data(const Polygons& polygons, const Frame& frame) {
     cells->InsertNextCell(size);
     for (int k = 0; k < size; ++k, ++next) {
       const Vec3 p = frame(polygons.corners[static_cast<std::size_t>(next)]);
-      const results::Colour& colour = polygons.colours[static_cast<std::size_t>(next)];
       points->InsertNextPoint(p.data());
-      colours->InsertNextTypedTuple(colour.data());
+      colours->InsertNextTypedTuple(colour_of[static_cast<std::size_t>(next)].data());
       cells->InsertCellPoint(next);
     }
   }
@@ -59,9 +62,9 @@ vtkNew<vtkPolyData> poly_data(const Polygons& polygons, const Frame& frame) {
   return data;
 }
 
-void add_polygons(vtkRenderer* renderer, const Polygons& polygons, const Frame& frame, float line_width) {
+void add_polygons(vtkRenderer* renderer, vtkPolyData* polygons, float line_width) {
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(poly_data(polygons, frame));
+  mapper->SetInputData(polygons);
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   vtkProperty* property = actor->GetProperty();
@@ -80,54 +83,110 @@ void aim(vtkRenderer* renderer, const scene::Camera& camera, const Frame& frame)
   lens->SetPosition(eye.data());
   lens->SetFocalPoint(target.data());
   lens->SetViewUp(camera.up.data());
-  lens->SetViewAngle(camera.fov_y_deg);
+  lens->SetViewAngle(std::get<scene::Pinhole>(camera.projection).fov_y_deg);
   renderer->SetNearClippingPlaneTolerance(1e-3);
   renderer->ResetCameraClippingRange();
 }
 
-/// The mean of blocks of factor x factor pixels, turned upside down: VTK's rows run from the bottom.
-core::Image reduced(const unsigned char* pixel, int width, int height, int factor) {
-  core::Image image(width, height, {"R", "G", "B"});
-  for (int y = 0; y < height * factor; ++y)
-    for (int x = 0; x < width * factor; ++x, pixel += 3)
-      for (int c = 0; c < 3; ++c) image.at(x / factor, height - 1 - y / factor, c) += pixel[c];
+/// Colours alone, factor x factor a pixel.
+Samples drawn(const Raster& raster, std::span<const Colour> colours, Colour background, int factor, float line_width) {
+  const int width = raster.camera.width * factor, height = raster.camera.height * factor;
+  const Frame frame = frame_of(raster);
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(width, height);
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(background[0] / 255.0, background[1] / 255.0, background[2] / 255.0);
+  window->AddRenderer(renderer);
+  add_polygons(renderer, poly_data(raster.fronts, colours, frame), line_width);
+  aim(renderer, raster.camera, frame);
+  window->Render();
+
+  vtkNew<vtkUnsignedCharArray> bytes;
+  window->GetPixelData(0, 0, width - 1, height - 1, 0, bytes);
+  if (bytes->GetNumberOfValues() != vtkIdType{3} * width * height)
+    throw core::InputError(
+        "pictures", core::format("the display cannot draw %d x %d pixels", raster.camera.width, raster.camera.height));
+  Samples samples{width, height, {}, {}};
+  samples.colours.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const unsigned char* byte = bytes->GetPointer(0);
+  for (int y = height - 1; y >= 0; --y)  // VTK's rows run from the bottom
+    for (int x = 0; x < width; ++x, byte += 3) samples.colours[samples.place(x, y)] = {byte[0], byte[1], byte[2]};
+  return samples;
+}
+
+/// Faces are drawn like colours: six bits a channel, so that one that is rounded to its neighbour is still read.
+constexpr std::uint32_t last_code = (1U << 18) - 1;  ///< of nothing
+Colour colour_of_code(std::uint32_t code) {
+  const auto channel = [&](int shift) { return static_cast<std::uint8_t>(4 * ((code >> shift) & 63U) + 2); };
+  return {channel(12), channel(6), channel(0)};
+}
+std::uint32_t code_of_colour(const Colour& c) {
+  return (std::uint32_t{c[0]} >> 2) << 12 | (std::uint32_t{c[1]} >> 2) << 6 | std::uint32_t{c[2]} >> 2;
+}
+
+/// Of more than a quarter of a million faces some share a number.
+std::vector<std::uint32_t> faces_in(const Raster& raster, int factor) {
+  std::vector<Colour> colours;
+  for (std::size_t k = 0; k < raster.faces.size(); ++k) {
+    const std::uint32_t face = raster.faces[k];
+    colours.insert(colours.end(), raster.fronts.sizes[k],
+                   colour_of_code(face == Samples::back ? face : 1 + (face - 1) % (last_code - 1)));
+  }
+  std::vector<std::uint32_t> faces;
+  for (const Colour& colour : drawn(raster, colours, colour_of_code(last_code), factor, 0).colours) {
+    const std::uint32_t code = code_of_colour(colour);
+    faces.push_back(code == last_code ? Samples::nothing : code);
+  }
+  return faces;
+}
+
+Colour mixed(const Colour& a, const Colour& b, double part_of_b) {
+  Colour out;
+  for (std::size_t c = 0; c < 3; ++c) out[c] = static_cast<std::uint8_t>(std::lround(a[c] + part_of_b * (b[c] - a[c])));
+  return out;
+}
+
+/// The mean of blocks of factor x factor samples.
+core::Image reduced(const Samples& samples, int factor) {
+  core::Image image(samples.width / factor, samples.height / factor, {"R", "G", "B"});
+  for (int y = 0; y < samples.height; ++y)
+    for (int x = 0; x < samples.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(x / factor, y / factor, c) += samples.colours[samples.place(x, y)][static_cast<std::size_t>(c)];
   const float scale = 1.0F / (255.0F * static_cast<float>(factor * factor));
   for (float& v : image.data) v *= scale;
   return image;
 }
 
-core::Image drawn(const Raster& raster, int factor, float line_width) {
-  const int width = raster.camera.width, height = raster.camera.height;
-  const Frame frame = frame_of(raster);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(width * factor, height * factor);
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(raster.background[0] / 255.0, raster.background[1] / 255.0, raster.background[2] / 255.0);
-  window->AddRenderer(renderer);
-  add_polygons(renderer, raster.fronts, frame, line_width);
-  aim(renderer, raster.camera, frame);
-  window->Render();
-
-  vtkNew<vtkUnsignedCharArray> bytes;
-  window->GetPixelData(0, 0, width * factor - 1, height * factor - 1, 0, bytes);
-  if (bytes->GetNumberOfValues() != vtkIdType{3} * width * height * factor * factor)
-    throw core::InputError("pictures", core::format("the display cannot draw %d x %d pixels", width, height));
-  return reduced(bytes->GetPointer(0), width, height, factor);
+/// Of a picture of 800 pixels a side: one sample of a third of a pixel on each side.
+int reach_of_outlines(int side, int factor) {
+  return std::max(1, static_cast<int>(std::lround(factor * side / 2400.0)));
 }
 
 }  // namespace
 
 core::Image rasterised(const Display&, const Raster& raster) {
   if (raster.fronts.sizes.empty()) throw core::PreconditionError("rasterised: at least one polygon expected");
+  if (!raster.faces.empty() && raster.faces.size() != raster.fronts.sizes.size())
+    throw core::PreconditionError("rasterised: a face per polygon expected");
   const int side = std::max(raster.camera.width, raster.camera.height);
   const int factor = side <= 2700 ? 3 : side <= 4000 ? 2 : 1;
-  core::Image image = drawn(raster, factor, 0);
-  if (!raster.edges) return image;
-  const core::Image lines = drawn(raster, factor, static_cast<float>(factor * std::max(1.0, side / 1200.0)));
-  for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = 0.75F * image.data[i] + 0.25F * lines.data[i];
-  return image;
+  Samples samples = drawn(raster, raster.fronts.colours, raster.background, factor, 0);
+  if (raster.edges) {
+    const auto width = static_cast<float>(factor * std::max(1.0, side / 1200.0));
+    const Samples lines = drawn(raster, raster.fronts.colours, raster.background, factor, width);
+    for (std::size_t i = 0; i < lines.colours.size(); ++i)
+      samples.colours[i] = mixed(samples.colours[i], lines.colours[i], 0.25);
+  }
+  if (!raster.faces.empty()) {
+    constexpr int pixels_enough = 64;
+    samples.faces = faces_in(raster, factor);
+    leave_out_specks(samples);
+    if (raster.outlines) draw_outlines(samples, reach_of_outlines(side, factor), pixels_enough * factor * factor);
+  }
+  return reduced(samples, factor);
 }
 
 }  // namespace interflect::visual

@@ -1,16 +1,24 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/image.h"
 #include "scene/camera.h"
 #include "visual/display.h"
+#include "visual/outlines.h"
 #include "visual/shading.h"
 
 namespace interflect::visual {
 
 /// What stands before a camera, drawn without light: colours are what they are.
 struct Raster {
-  Polygons fronts;     ///< seen from the side around which their corners run counter-clockwise
-  bool edges = false;  ///< drawn over them, a quarter dark
+  Polygons fronts;  ///< seen from the side around which their corners run counter-clockwise
+  /// Of each of them: Samples::back, or the number of what it is a part of, from 1.  May be empty: then there are no
+  /// outlines, and specks of backs stay.
+  std::vector<std::uint32_t> faces;
+  bool edges = false;     ///< of polygons, drawn over them, a quarter dark
+  bool outlines = false;  ///< of faces
   results::Colour background{255, 255, 255};
   scene::Camera camera;  ///< pixels as in scene::Camera
 };

@@ -2,11 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/format.h"
 #include "results/tone_mapping.h"
 
 namespace interflect::visual {
+
+namespace {
+
+constexpr double most_decades = 1e4;
+
+/// 1, 2 and 5 times powers of ten: the k-th, 10^(k / 3) where k is a multiple of 3.
+double one_two_five(int k) {
+  const int decade = static_cast<int>(std::floor(k / 3.0));
+  constexpr double steps[] = {1, 2, 5};
+  return steps[k - 3 * decade] * std::pow(10.0, decade);
+}
+
+/// The last of them that is not above x.
+int one_two_five_below(double x) {
+  int k = 3 * static_cast<int>(std::floor(std::log10(x))) - 1;
+  while (one_two_five(k + 1) <= x * (1 + 1e-12)) ++k;
+  return k;
+}
+
+std::vector<double> logarithmic_ticks(const Range& range) {
+  constexpr std::size_t most = 15;
+  std::vector<double> all, tens;
+  for (int k = one_two_five_below(range.low * (1 - 1e-9)) + 1; one_two_five(k) <= range.high * (1 + 1e-9); ++k) {
+    all.push_back(one_two_five(k));
+    if (k % 3 == 0) tens.push_back(one_two_five(k));
+  }
+  return all.size() <= most ? all : tens;
+}
+
+}  // namespace
+
+double Range::part(double value) const {
+  if (!logarithmic) return (value - low) / (high - low);
+  return std::isnan(value) ? value : std::log(std::max(value, low) / low) / std::log(high / low);
+}
 
 double round_up(double x) {
   if (!(x > 0) || !std::isfinite(x)) return 1;
@@ -24,7 +60,23 @@ Range range_of(std::span<const double> values, std::span<const double> areas, bo
   return {diverging ? -high : 0.0, high};
 }
 
+Range rounded_outwards(double low, double high) {
+  const int first = one_two_five_below(low), last = one_two_five_below(high * (1 - 1e-9)) + 1;
+  return {one_two_five(first), one_two_five(std::max(last, first + 1)), true};
+}
+
+Range logarithmic_range(std::span<const double> values, std::span<const double> weights) {
+  std::vector<double> positive(values.begin(), values.end());
+  for (double& v : positive)
+    if (!(v > 0)) v = std::numeric_limits<double>::quiet_NaN();  // left out
+  const double most = results::weighted_quantile(positive, weights, 0.99);
+  if (!(most > 0)) return {0.1, 1, true};
+  const double least = std::max(results::weighted_quantile(positive, weights, 0.01), most / most_decades);
+  return rounded_outwards(least, most);
+}
+
 std::vector<double> ticks_of(const Range& range) {
+  if (range.logarithmic) return logarithmic_ticks(range);
   const double span = range.high - range.low, ten = std::pow(10.0, std::floor(std::log10(span / 4)));
   const auto whole = [](double x) { return std::abs(x - std::round(x)) < 1e-6; };
   double step = 0, even_step = 0;  // the largest that gives four intervals; the same among those that end on both ends

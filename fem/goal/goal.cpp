@@ -4,8 +4,10 @@
 #include <optional>
 
 #include "core/error.h"
+#include "fem/point_of_view.h"
 #include "fem/point_view_factors.h"
 #include "fem/space/plane_basis.h"
+#include "scene/film_map.h"
 
 namespace interflect::fem {
 namespace {
@@ -52,13 +54,16 @@ class Weigher {
   GoalWeights operator()(const Goal::InView& goal) const {
     GoalWeights weights = none();
     const scene::Camera& camera = scene_.camera(goal.camera);
+    require_point_of_view(camera);
+    const scene::FilmMap film(camera);
     const auto functions = static_cast<std::size_t>(plane_functions(order_));
     const double each = inv_pi / (static_cast<double>(camera.width) * camera.height);
     std::vector<std::optional<PlaneBasis>> bases(mesh_.patches().size());  // of elements in view
     for (int y = 0; y < camera.height; ++y) {
       run_.throw_if_stopped("goal");
       for (int x = 0; x < camera.width; ++x) {
-        const auto hit = rays_.closest({camera.eye, camera.direction(x + 0.5, y + 0.5)});
+        const auto ray = film.ray({x + 0.5, y + 0.5});
+        const auto hit = ray ? rays_.closest({ray->origin, ray->direction}) : std::nullopt;
         const auto found = hit ? mesh_.locate(*hit) : std::nullopt;
         if (!found) continue;
         const scene::SurfacePatch& patch = mesh_.patch(found->element);

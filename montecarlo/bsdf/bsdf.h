@@ -42,10 +42,14 @@ class Bsdf {
   /// @param u      uniform in [0, 1): which part, and the direction in it
   /// @return       nothing: the path ends, with nothing lost but what is absorbed
   virtual std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const = 0;
+  /// Whether some of what it does is delta, but for going straight on: light that takes that way cannot be joined here.
+  virtual bool mirrors() const { return only_delta(); }
   /// What goes straight through of light that arrives from there.
   virtual Spectrum straight(const Vec3&) const { return Spectrum::zero(); }
   /// Whether any light may.
   virtual bool lets_pass() const { return false; }
+  /// Whether f(a -> b) may be other than 0 where a and b are on different sides.
+  virtual bool transmits() const { return false; }
   /// Whether f is 0 everywhere: a path cannot be joined here with another.
   virtual bool only_delta() const { return false; }
 };

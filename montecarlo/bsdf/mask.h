@@ -29,6 +29,8 @@ class Mask final : public Bsdf {
     return Spectrum(1 - opacity_) + (of_ ? opacity_ * of_->straight(from) : Spectrum::zero());
   }
   bool lets_pass() const override { return true; }
+  bool transmits() const override { return of_ && of_->transmits(); }
+  bool mirrors() const override { return of_ && of_->mirrors(); }
   bool only_delta() const override { return opacity_ == 0 || !of_ || of_->only_delta(); }
 
  private:
@@ -50,6 +52,7 @@ class FrontOnly final : public Bsdf {
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override {
     return known.z() > 0 ? of_->sample(known, u, walk) : std::nullopt;
   }
+  bool mirrors() const override { return of_->mirrors(); }
   bool only_delta() const override { return of_->only_delta(); }
 
  private:

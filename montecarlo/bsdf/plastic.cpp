@@ -11,7 +11,7 @@ Plastic::Plastic(double eta, const Spectrum& reflectance) : eta_(eta) {
   albedo_ = reflectance.map([&](double rho) { return rho * (1 - inside) / (1 - rho * inside); }).max();
 }
 
-double Plastic::mirrors(double cosine) const {
+double Plastic::coat(double cosine) const {
   const double F = core::fresnel(cosine, eta_).mean();
   return F / (F + (1 - F) * albedo_);
 }
@@ -24,13 +24,13 @@ Spectrum Plastic::f(const Vec3& from, const Vec3& to) const {
 
 double Plastic::pdf_solid_angle(const Vec3& known, const Vec3& drawn) const {
   if (!same_side(known, drawn)) return 0;
-  return (1 - mirrors(std::abs(known.z()))) * cosine_hemisphere_pdf_solid_angle(std::abs(drawn.z()));
+  return (1 - coat(std::abs(known.z()))) * cosine_hemisphere_pdf_solid_angle(std::abs(drawn.z()));
 }
 
 std::optional<Scattered> Plastic::sample(const Vec3& known, const Vec3& u, Walk walk) const {
-  const double cosine = std::abs(known.z()), coat = mirrors(cosine);
-  if (u[0] < coat)
-    return Scattered{Vec3(-known.x(), -known.y(), known.z()), Spectrum(core::fresnel(cosine, eta_).mean() / coat), 0,
+  const double cosine = std::abs(known.z()), by_coat = coat(cosine);
+  if (u[0] < by_coat)
+    return Scattered{Vec3(-known.x(), -known.y(), known.z()), Spectrum(core::fresnel(cosine, eta_).mean() / by_coat), 0,
                      true};
   Vec3 way = cosine_hemisphere(u[1], u[2]);
   if (known.z() < 0) way.z() = -way.z();

@@ -16,9 +16,10 @@ class Plastic final : public Bsdf {
   Spectrum f(const Vec3& from, const Vec3& to) const override;
   double pdf_solid_angle(const Vec3& known, const Vec3& drawn) const override;
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override;
+  bool mirrors() const override { return true; }
 
  private:
-  double mirrors(double cosine) const;  ///< how likely the coat is drawn
+  double coat(double cosine) const;  ///< how likely it is drawn
 
   double eta_;
   Spectrum base_;  ///< rho / (pi n² (1 - rho F_i))

@@ -67,7 +67,8 @@ void set_thermal(const Thermal& thermal, int channels, Material& material) {
   material.thermal = thermal;
 }
 
-/// Names that an EXR picture can hold beside each other: it has a NAME.error for every NAME, and r becomes R.
+/// Names that an EXR picture can hold beside each other: it has a NAME.error for every NAME, one for the number of
+/// samples, and r becomes R.
 std::vector<std::string> read_channel_names(const JsonNode& channels) {
   constexpr std::size_t most = Spectrum::capacity;
   const auto nodes = channels.items(1);
@@ -79,6 +80,7 @@ std::vector<std::string> read_channel_names(const JsonNode& channels) {
     const std::string name = node.string(), lower = core::lower_case(name);
     if (name.empty()) node.fail("a channel needs a name");
     if (lower.ends_with(".error")) node.fail("a channel's name does not end in '.error': pictures keep errors there");
+    if (lower == "samples") node.fail("'samples' is what pictures count samples by: another name is expected");
     if (!taken.insert(lower).second)
       node.fail("two channels have the name '" + shown_word(name) + "' (upper and lower case are one)");
     names.push_back(name);

@@ -5,20 +5,13 @@
 #include <limits>
 
 #include "core/format.h"
+#include "scene/io/camera_reader.h"
 #include "scene/io/text_file.h"
 
 namespace interflect::scene::io {
 namespace {
 
 constexpr int most_points = 10'000'000;  // of one sensor: beyond, a slip in its spacing is likelier than a wish
-constexpr int most_pixels = 65536;       // along one side
-
-Vec3 read_direction(const JsonNode& node) {
-  const Vec3 direction = node.vec3();
-  const double length = direction.stableNorm();
-  if (!(length > 0)) node.fail("the zero vector is no direction");
-  return direction / length;
-}
 
 Vec3 read_place(const JsonNode& node, const LengthUnit& unit) {
   Placement placement;
@@ -80,30 +73,6 @@ Sensor read_sensor(const JsonNode& node, const LengthUnit& unit) {
   for (const JsonNode& point : node.at("points").items(1)) points.push_back(read_place(point, unit));
   sensor.where = std::move(points);
   return sensor;
-}
-
-Camera read_camera(const JsonNode& node, const LengthUnit& unit, const Scene& scene) {
-  node.only({"name", "eye", "target", "up", "fov_y_deg", "size"});
-  Camera camera;
-  camera.name = node.has("name") ? node.at("name").string() : core::format("camera-%zu", scene.cameras.size() + 1);
-  camera.eye = read_place(node.at("eye"), unit);
-  camera.target = read_place(node.at("target"), unit);
-  if (camera.eye == camera.target) node.fail("the camera looks at itself: eye and target are the same point");
-  camera.up = node.has("up") ? read_direction(node.at("up")) : scene.up;
-  const Vec3 forward = (camera.target - camera.eye).stableNormalized();
-  if (!(forward.cross(camera.up).norm() > 1e-9))
-    (node.has("up") ? node.at("up") : node).fail("the camera looks along its 'up': give it another");
-  if (node.has("fov_y_deg")) {
-    camera.fov_y_deg = node.at("fov_y_deg").number_in(0, 180);
-    if (camera.fov_y_deg == 0 || camera.fov_y_deg == 180)
-      node.at("fov_y_deg").fail("an angle between 0 and 180 is expected");
-  }
-  if (node.has("size")) {
-    const auto size = node.at("size").items(2, 2);
-    camera.width = size[0].integer_in(1, most_pixels);
-    camera.height = size[1].integer_in(1, most_pixels);
-  }
-  return camera;
 }
 
 template <class Named>

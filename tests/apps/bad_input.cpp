@@ -198,6 +198,30 @@ TEST(BadInput, a_camera_that_looks_at_itself) {
       "/cameras/0");
 }
 
+TEST(BadInput, cameras_that_a_method_cannot_see_through) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.json",
+      scene_with(grey, square,
+                 R"(, "cameras": [ { "name": "slr", "eye": [1,1,1], "target": [0,0,0], "projection": "thin-lens",
+                                     "f_number": 2, "size": [8,8] } ])"));
+  const std::string said = "camera 'slr': radiosity knows no thin lens; interflect trace does";
+  expect_refused({"render", scene, "-o", folder / "x.png"}, said);
+  expect_refused({"solve", scene, "-o", folder / "x", "--goal", "camera:slr"}, said);
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.png") || std::filesystem::exists(folder / "x"));
+}
+
+TEST(BadInput, filters_and_sequences_of_pictures) {
+  const TemporaryFolder folder;
+  const auto trace = [&](const std::string& option, const std::string& value) {
+    return std::vector<std::string>{
+        "trace", shipped_scene("cornell_box"), "-o", folder / "x.exr", "--spp", "40", option, value};
+  };
+  expect_refused(trace("--sequence", "sobol"), "a multiple of 16 a pixel expected, not 40");
+  expect_refused(trace("--sequence", "sobel"), "sobol-owen");
+  expect_refused(trace("--filter", "bocks"), "gaussian");
+}
+
 TEST(BadInput, an_unknown_camera_names_those_known) {
   const TemporaryFolder folder;
   expect_refused({"trace", shipped_scene("cornell_box"), "--camera", "roof", "-o", folder / "x.exr"}, "front");

@@ -274,6 +274,24 @@ TEST(Solve, a_forecast_is_a_result_and_needs_no_folder) {
   }
 }
 
+// By paths from lights the same surfaces.csv, in the same columns, within what both state; what light tracing does not
+// find is refused.
+TEST(Trace, has_estimates_by_either_integrator) {
+  const TemporaryFolder folder;
+  const auto trace = [&](const char* integrator, const char* scene) {
+    return interflect({"trace", shipped_scene(scene), "--spp", "1", "-o", folder / "p.png", "--estimates",
+                       folder / integrator, "--integrator", integrator, "--accuracy", "2%"});
+  };
+  for (const char* integrator : {"path", "light"}) {
+    const Outcome outcome = trace(integrator, "furnace");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(folder / integrator) / "surfaces.csv"));
+  }
+  const Outcome refused = trace("light", "materials");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "light tracing: points and pixels do not see what")) << refused.err;
+}
+
 // Bounds are no part of what a forecast measures: so many seconds an element, which differ between scenes.
 TEST(Solve, a_forecast_says_what_bounds_take_roughly) {
   const std::vector<std::string> asked{"solve",    shipped_scene("cube"), "--element-size", "0.5",
@@ -477,12 +495,13 @@ TEST(Trace, sees_the_furnace_as_bright_as_it_is_and_says_how_sure_it_is) {
   const Outcome trace = interflect({"trace", shipped_scene("furnace"), "--spp", "4", "-o", folder / "f.exr"});
   ASSERT_EQ(trace.status, 0) << trace.err;
   const core::Image image = results::read_exr(folder / "f.exr");
-  ASSERT_EQ(image.channels, (std::vector<std::string>{"y", "y.error"}));
+  ASSERT_EQ(image.channels, (std::vector<std::string>{"y", "y.error", "samples"}));
   double sum = 0, variance = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       sum += image.at(x, y, 0);
       variance += image.at(x, y, 1) * image.at(x, y, 1);
+      EXPECT_EQ(image.at(x, y, 2), 4);
     }
   const double pixels = image.width * image.height, standard_error = std::sqrt(variance) / pixels;
   EXPECT_EQ(pixels, 400 * 300);

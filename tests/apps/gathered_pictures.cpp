@@ -103,6 +103,21 @@ TEST(Render, gathers_shadows_as_they_are) {
   EXPECT_LT(sampled.mean, .02 * as_elements.mean) << "elements of .8 m have no shadow's edge";
 }
 
+// Parallels from below the blocker meet the floor at the middles of the same 40 x 40 parts.
+TEST(Render, sees_by_parallels_too) {
+  const TemporaryFolder folder;
+  std::string text = shadow;
+  const std::string pinhole = R"("fov_y_deg": 121.28449291441747)";
+  text.replace(text.find(pinhole), pinhole.size(), R"("projection": "orthographic", "height": 3.2)");
+  const Outcome render = interflect({"render", folder.write("shadow.json", text), "-o", folder / "f.exr",
+                                     "--element-size", "0.8", "--rays", "1", "--order", "1", "--gather"});
+  EXPECT_EQ(render.status, 0) << render.err;
+  const Off exact = off(results::read_exr(folder / "f.exr"));
+  EXPECT_EQ(exact.umbra, 144);
+  EXPECT_EQ(exact.penumbra, 1300);
+  EXPECT_LT(exact.largest, 1e-7);
+}
+
 /// A room with a lamp below its ceiling and a table below the lamp.
 const std::string room_with_a_table = R"({ "format": "interflect/scene/1", "units": "m", "quantity": "radiometric",
   "channels": ["y"], "weights": [1],

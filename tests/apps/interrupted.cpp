@@ -32,6 +32,47 @@ TEST(Interrupted, a_picture_is_kept_with_the_samples_so_far) {
   EXPECT_LT(said.at("samples"), 2000);
 }
 
+// Whatever the threads, and with other sample counts on the way: the bytes of a run that nothing stopped.
+TEST(Interrupted, a_picture_goes_on_to_the_same_bytes) {
+  const TemporaryFolder folder;
+  const auto trace = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"trace", shipped_scene("cornell_box"), "-o", folder / (name + ".exr")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return interflect(arguments);
+  };
+  const Outcome whole = trace("whole", {"--spp", "64", "--threads", "2"});
+  EXPECT_EQ(whole.status, 0) << whole.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "whole.checkpoint.h5"));
+  const Outcome stopped = trace("parts", {"--spp", "100000", "--threads", "2", "--max-time", "1s"});
+  EXPECT_EQ(stopped.status, 1) << stopped.err;
+  ASSERT_TRUE(std::filesystem::exists(folder / "parts.checkpoint.h5")) << stopped.err;
+  EXPECT_TRUE(contains(stopped.out + stopped.err, "--resume goes on from")) << stopped.out << stopped.err;
+  const Outcome gone_on = trace("parts", {"--spp", "64", "--threads", "8", "--resume"});
+  EXPECT_EQ(gone_on.status, 0) << gone_on.err;
+  for (const char* extension : {".exr", ".png"})
+    EXPECT_TRUE(read_file(folder / ("parts" + std::string(extension))) ==
+                read_file(folder / ("whole" + std::string(extension))))
+        << extension;
+
+  const Outcome fewer = trace("parts", {"--spp", "32", "--resume"});
+  EXPECT_EQ(fewer.status, 2);
+  EXPECT_TRUE(contains(fewer.err, "64 samples a pixel already, more than 32")) << fewer.err;
+  const Outcome other = interflect({"trace", shipped_scene("cube"), "-o", folder / "parts.exr", "--resume"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "parts.checkpoint.h5: this checkpoint is of another scene")) << other.err;
+  for (const std::vector<std::string>& settings :
+       {std::vector<std::string>{"--filter", "gaussian"}, {"--sequence", "sobol"}, {"--seed", "2"}}) {
+    std::vector<std::string> arguments = {"--resume", "--spp", "64"};
+    arguments.insert(arguments.end(), settings.begin(), settings.end());
+    const Outcome refused = trace("parts", arguments);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(contains(refused.err, "of other settings")) << refused.err;
+  }
+  const Outcome nothing = trace("nowhere", {"--resume"});
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_TRUE(contains(nothing.err, "there is no such checkpoint")) << nothing.err;
+}
+
 TEST(Interrupted, time_that_is_over_is_a_stop) {
   const TemporaryFolder folder;
   const Outcome trace = interflect({"trace", shipped_scene("cornell_box"), "--spp", "1000000", "--threads", "2",

@@ -208,5 +208,17 @@ TEST(RadiosityMethod, answers_the_same_bits_for_any_number_of_threads) {
   }
 }
 
+// Lights that are no surfaces are refused by name, before any work.
+TEST(RadiosityMethod, refuses_lights_that_are_no_surfaces) {
+  scene::Scene scene = plates();
+  scene.lights.suns.push_back({"sun", -Vec3::UnitZ(), Spectrum(1)});
+  try {
+    solve(scene, {});
+    ADD_FAILURE();
+  } catch (const core::InputError& error) {
+    EXPECT_STREQ(error.what(), "'sun': radiosity knows lights that are surfaces alone, trace this too");
+  }
+}
+
 }  // namespace
 }  // namespace interflect::fem

@@ -42,14 +42,13 @@ inline constexpr double alpha = 1e-3;
 
 /// Every channel of every answer within the critical number of its own standard errors.  A standard error above
 /// `largest_error` (relative to the truth) would prove nothing, and fails.
-inline void expect_agreement(const scene::Scene& scene, const std::vector<Question>& questions,
-                             const montecarlo::PathTracerSettings& settings, double largest_error,
-                             std::uint64_t seed = 1) {
+inline void expect_agreement(const measure::Method& method, const scene::Scene& scene,
+                             const std::vector<Question>& questions, double largest_error, std::uint64_t seed = 1) {
   ASSERT_GT(scene.channel_count(), 0);
   std::vector<measure::Measurement> asked;
   for (const Question& question : questions) asked.push_back(question.asked);
   core::LocalRun run(seed);
-  const std::vector<Estimate> found = montecarlo::PathTracer(settings).answer(scene, asked, run);
+  const std::vector<Estimate> found = method.answer(scene, asked, run);
   const double limit = critical_z(alpha, questions.size() * static_cast<std::size_t>(scene.channel_count()));
   for (std::size_t i = 0; i < found.size(); ++i)
     for (int c = 0; c < scene.channel_count(); ++c) {
@@ -61,6 +60,12 @@ inline void expect_agreement(const scene::Scene& scene, const std::vector<Questi
       EXPECT_EQ(found[i].claim, Claim::guaranteed);
       EXPECT_EQ(found[i].error_bound[c], 0);
     }
+}
+
+inline void expect_agreement(const scene::Scene& scene, const std::vector<Question>& questions,
+                             const montecarlo::PathTracerSettings& settings, double largest_error,
+                             std::uint64_t seed = 1) {
+  expect_agreement(montecarlo::PathTracer(settings), scene, questions, largest_error, seed);
 }
 
 inline scene::SurfaceId surface_named(const scene::Scene& scene, const std::string& name) {

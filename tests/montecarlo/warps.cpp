@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "montecarlo/emitters.h"
+#include "montecarlo/alias_table.h"
 #include "tests/support/shapes.h"
 
 namespace interflect::montecarlo {
@@ -120,43 +120,6 @@ TEST(AliasTable, picks_in_proportion_to_the_weights) {
     EXPECT_NEAR(counts[i], n * p, 4.9 * std::sqrt(n * p * (1 - p))) << i;
   }
   EXPECT_LT(table.pick(almost_one), weights.size());
-}
-
-// The pdf that `sample` tells, the pdf that `pdf_area` finds for the same place, and the frequency are one thing.
-TEST(Emitters, are_picked_by_power_and_their_pdf_is_known_at_hits) {
-  scene::SceneBuilder builder({"a", "b"});
-  scene::Material bright, dim;
-  bright.exitance[0] = 2, bright.exitance[1] = 10;
-  dim.exitance[0] = 1;
-  const auto big = builder.add_material(dim), small = builder.add_material(bright), none = builder.add_material({});
-  builder.add_box("big", {Vec3(0, 0, 0), Vec3(2, 2, 2)}, big);
-  builder.add_box("dark", {Vec3(0, 0, 4), Vec3(2, 2, 5)}, none);
-  builder.add_box("small", {Vec3(5, 0, 0), Vec3(5.1, 0.1, 0.1)}, small);
-  const scene::Scene scene = builder.finish();
-  const Emitters emitters(scene);
-  const double power = 24 * 1 + 0.06 * 10;  // area times the largest channel
-  double integral = 0;
-  for (std::uint32_t f = 0; f < scene.facets.size(); ++f) {
-    const double e = scene.material(scene.facets[f].surface).exitance.max();
-    EXPECT_NEAR(emitters.pdf_area(f), e / power, 1e-14);
-    integral += emitters.pdf_area(f) * scene.facets[f].area;
-  }
-  EXPECT_NEAR(integral, 1, 1e-14);
-  constexpr int n = 200'000;
-  int on_small = 0;
-  for (int i = 0; i < n; ++i) {
-    core::RandomNumbers numbers(6, 0, static_cast<std::uint64_t>(i));
-    const double pick = numbers.next(), u = numbers.next(), v = numbers.next();
-    const EmitterSample sample = emitters.sample(pick, u, v);
-    const bool is_small = sample.position.x() > 4;
-    on_small += is_small;
-    EXPECT_NEAR(sample.pdf_area, (is_small ? 10 : 1) / power, 1e-14);
-    EXPECT_EQ(sample.exitance[1], is_small ? 10 : 0);
-  }
-  const double p = 0.6 / power;
-  EXPECT_NEAR(on_small, n * p, 4.9 * std::sqrt(n * p * (1 - p)));
-  EXPECT_EQ(emitters.max_exitance()[0], 2);
-  EXPECT_EQ(emitters.max_exitance()[1], 10);
 }
 
 }  // namespace

@@ -105,3 +105,20 @@ TEST(Images, quantiles_are_weighted) {
   EXPECT_EQ(weighted_quantile(values, {}, 0.99), 3);
   EXPECT_EQ(weighted_quantile({}, {}, 0.99), 0);
 }
+
+// Radiance's own format, by hand: 2 x 1 texels without run lengths, mantissas and a common exponent.
+TEST(Images, hdr_is_read_as_radiance_wrote_it) {
+  const test::TemporaryFolder scratch;
+  const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+  const unsigned char texels[] = {128, 64, 32, 129, 0, 0, 0, 0};
+  write_atomically(scratch / "sky.hdr", head + std::string(reinterpret_cast<const char*>(texels), sizeof texels));
+  const core::Image image = read_radiance(scratch / "sky.hdr");
+  EXPECT_EQ(image.width, 2);
+  EXPECT_EQ(image.height, 1);
+  EXPECT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B"}));
+  EXPECT_EQ(image.data, (std::vector<float>{1, .5F, .25F, 0, 0, 0}));
+  write_atomically(scratch / "bad.hdr", "nothing of the kind");
+  EXPECT_THROW(read_radiance(scratch / "bad.hdr"), core::InputError);
+  EXPECT_THROW(read_radiance(scratch / "missing.hdr"), core::InputError);
+  EXPECT_THROW(read_radiance(scratch / "sky.png"), core::InputError);
+}

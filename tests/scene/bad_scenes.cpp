@@ -65,7 +65,8 @@ TEST(BadScene, unknown_keys_and_words_bring_the_nearest_known_one) {
 TEST(BadScene, what_this_version_does_not_know_is_said_in_so_many_words) {
   expect_all({{{R"("luminaires": [])"}, "s.json:4: /luminaires: this version does not know \"luminaires\""},
               {{R"("photometry": {})"}, "s.json:4: /photometry: this version does not know \"photometry\""},
-              {{R"("sky": {})"}, "s.json:4: /sky: this version does not know \"sky\""},
+              {{R"("sky": {"model": "cie"})"},
+               "s.json:4: /sky/model: the word 'cie' is not known: one of none, uniform, map is expected"},
               {with_material(R"("type": "difuse", "reflectance": 0.8)"),
                "s.json:4: /materials/white/type: the type 'difuse' is not known: did you mean 'diffuse'?"},
               {with_material(R"("reflectance": {"spectrum": "a.csv"})"),
@@ -209,6 +210,40 @@ TEST(BadScene, cameras_see_something) {
         "s.json:4: /cameras/0/size/0: 80.5 is not a whole number"},
        {camera(R"("name": "a", "eye": [1,1,1], "target": [0,0,0]}, {"name": "a", "eye": [1,1,1], "target": [0,0,0])"),
         "s.json:4: /cameras/1/name: the name 'a' is taken"}});
+}
+
+TEST(BadScene, projections_are_known_and_have_what_is_theirs) {
+  const auto camera = [](const std::string& body) {
+    return Text{R"("cameras": [{"eye": [1,1,1], "target": [0,0,0], )" + body + "}]"};
+  };
+  expect_all(
+      {{camera(R"("projection": "fish-eye")"),
+        "s.json:4: /cameras/0/projection: the word 'fish-eye' is not known: did you mean 'fisheye'?"},
+       {camera(R"("projection": "fisheye", "fov_y_deg": 90)"),
+        "s.json:4: /cameras/0/fov_y_deg: a camera with the projection 'fisheye' has no 'fov_y_deg'"},
+       {camera(R"("aperture_radius": 0.1)"),
+        "s.json:4: /cameras/0/aperture_radius: a camera with the projection 'pinhole' has no 'aperture_radius'"},
+       {camera(R"("projection": "thin-lens")"),
+        "s.json:4: /cameras/0: one of 'aperture_radius' and 'f_number' is expected of a thin lens"},
+       {camera(R"("projection": "thin-lens", "aperture_radius": 0.1, "f_number": 2)"),
+        "s.json:4: /cameras/0: one of 'aperture_radius' and 'f_number' is expected of a thin lens"},
+       {camera(R"("projection": "thin-lens", "aperture_radius": 0.1, "sensor_height_mm": 24)"),
+        "s.json:4: /cameras/0/sensor_height_mm: only an 'f_number' asks for it"},
+       {camera(R"("projection": "thin-lens", "aperture_radius": -0.1)"),
+        "s.json:4: /cameras/0/aperture_radius: -0.1 is not positive"},
+       {camera(R"("projection": "thin-lens", "f_number": 0)"), "s.json:4: /cameras/0/f_number: 0 is not positive"},
+       {camera(R"("projection": "thin-lens", "aperture_radius": 0.1, "focus_distance": 0)"),
+        "s.json:4: /cameras/0/focus_distance: 0 is not positive"},
+       {camera(R"("projection": "orthographic")"), "s.json:4: /cameras/0: the key 'height' is missing"},
+       {camera(R"("projection": "orthographic", "height": 1e100)"),
+        "s.json:4: /cameras/0/height: 1e+100 m is out of reach"},
+       {camera(R"("projection": "panoramic", "height_deg": 181)"),
+        "s.json:4: /cameras/0/height_deg: 181 is outside 0..180"},
+       {camera(R"("projection": "panoramic", "width_deg": 0)"),
+        "s.json:4: /cameras/0/width_deg: an angle above 0 and up to 360 is expected"},
+       {camera(R"("projection": "fisheye", "mapping": "stereographic")"),
+        "s.json:4: /cameras/0/mapping: the word 'stereographic' is not known: one of equidistant, equisolid is "
+        "expected"}});
 }
 
 TEST(BadScene, sensors_measure_somewhere) {

@@ -34,6 +34,32 @@ TEST(SceneFile, lengths_are_metres_after_reading_to_the_last_bit) {
   }
 }
 
+TEST(SceneFile, cameras_have_projections) {
+  const auto projection = [](const std::string& body) {
+    Text text{R"("cameras": [{"eye": [200,0,0], "target": [0,0,0])" + body + "}]"};
+    text.units = "cm";
+    return parsed(text).cameras[0].projection;
+  };
+  EXPECT_EQ(std::get<Pinhole>(projection("")).fov_y_deg, 50);
+  EXPECT_EQ(std::get<Pinhole>(projection(R"(, "projection": "pinhole", "fov_y_deg": 60)")).fov_y_deg, 60);
+  const auto lens = std::get<ThinLens>(projection(R"(, "projection": "thin-lens", "aperture_radius": 3)"));
+  EXPECT_EQ(lens.radius, 0.03);
+  EXPECT_EQ(lens.focus, 2);  // on the target
+  // f/2 before a sensor of 24 mm: v = 12 mm / tan 25 deg, 1/f = 1/v + 1/s, R = f / 4.
+  const auto by_number =
+      std::get<ThinLens>(projection(R"(, "projection": "thin-lens", "f_number": 2, "focus_distance": 150)"));
+  const double v = 0.012 / std::tan(25 * pi / 180);
+  EXPECT_NEAR(by_number.radius, 1 / (1 / v + 1 / 1.5) / 4, 1e-15);
+  EXPECT_EQ(by_number.focus, 1.5);
+  EXPECT_EQ(std::get<Orthographic>(projection(R"(, "projection": "orthographic", "height": 150)")).height, 1.5);
+  const auto panorama = std::get<Panoramic>(projection(R"(, "projection": "panoramic", "height_deg": 90)"));
+  EXPECT_EQ(panorama.width_deg, 360);
+  EXPECT_EQ(panorama.height_deg, 90);
+  const auto fisheye = std::get<Fisheye>(projection(R"(, "projection": "fisheye", "mapping": "equisolid")"));
+  EXPECT_EQ(fisheye.mapping, Fisheye::Mapping::equisolid);
+  EXPECT_EQ(fisheye.fov_deg, 180);
+}
+
 TEST(SceneFile, conventions_have_their_defaults) {
   const Scene scene = parsed({});
   EXPECT_EQ(scene.quantity, Quantity::photometric);

@@ -39,8 +39,9 @@ TEST(ShippedScenes, our_own_have_no_warnings_flipped_normals_or_overlaps) {
     const Scene scene = read_scene(file);
     if (is_of_a_mesh(scene)) continue;
     for (const Note& note : scene.warnings) ADD_FAILURE() << note.place << ": " << note.message;
-    for (const auto& f : inspect(scene).findings)
-      EXPECT_EQ(f.kind, Inspection::Finding::Kind::gap) << describe(f.kind) << " " << f.surface << " " << f.other;
+    using Kind = Inspection::Finding::Kind;
+    for (const auto& f : inspect(scene).findings)  // a pane stands free
+      EXPECT_TRUE(f.kind == Kind::gap || f.kind == Kind::rim) << describe(f.kind) << " " << f.surface << " " << f.other;
   }
 }
 

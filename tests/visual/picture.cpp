@@ -223,6 +223,67 @@ TEST_F(Picture, edges_darken_the_borders_of_elements_alone) {
   EXPECT_EQ(lighter, 0);
 }
 
+TEST_F(Picture, faces_of_one_colour_are_told_apart_by_their_outlines) {
+  tiny::Floor floor(2);
+  FalseColour options;
+  options.camera = floor.camera(3);
+  const std::vector<double> same(4, 1.0);
+  const core::Image outlined = false_colour(display(), floor.scene, floor.mesh, same, options);
+  options.outlines = false;
+  const core::Image plain = false_colour(display(), floor.scene, floor.mesh, same, options);
+  const auto darker = [&](int x, int y) {
+    const Place at = place_of(120, 90, "");
+    return outlined.at(at.left + x, at.top + y, 1) < plain.at(at.left + x, at.top + y, 1) - 0.05F;
+  };
+  int outside = 0, inside = 0;
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x) {
+      const bool rim =
+          element_at(floor, *options.camera, x - 2, y, 2) < 0 || element_at(floor, *options.camera, x + 2, y, 2) < 0 ||
+          element_at(floor, *options.camera, x, y - 2, 2) < 0 || element_at(floor, *options.camera, x, y + 2, 2) < 0;
+      (rim ? outside : inside) += darker(x, y);
+    }
+  EXPECT_GT(outside, 100);
+  EXPECT_EQ(inside, 0);  // elements of one face are not
+}
+
+TEST_F(Picture, what_is_beside_everything_is_not_the_white_of_a_diverging_map) {
+  const tiny::Floor floor(2);
+  FalseColour options;
+  options.camera = floor.camera(6);
+  options.map = ColourMap::blue_white_red;
+  const core::Image image = false_colour(display(), floor.scene, floor.mesh, std::vector<double>(4, 0.0), options);
+  const Place at = place_of(120, 90, "");
+  EXPECT_EQ(pixel(image, at.left + 60, at.top + 45), colour_of(ColourMap::blue_white_red, 0.5));
+  EXPECT_LT(pixel(image, at.left + 2, at.top + 2)[1], 230);
+}
+
+// The front and the side of a box share an edge, on which corners of the side's elements lie and none of the front's:
+// the side's back, which the front hides, would show there by rounding, dark before the wall behind.
+TEST_F(Picture, no_specks_of_backs_show_at_the_edges_of_bodies) {
+  constexpr int cuts = 7;
+  const auto patch = [](std::array<Vec3, 4> ring) { return make_patch(scene::SurfaceId{0}, scene::Side::front, ring); };
+  std::vector<scene::SurfacePatch> patches{patch({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 0, 1), Vec3(0, 0, 1)}),
+                                           patch({Vec3(-9, 2, -9), Vec3(9, 2, -9), Vec3(9, 2, 9), Vec3(-9, 2, 9)})};
+  for (double k = 0; k < cuts; ++k)
+    patches.push_back(
+        patch({Vec3(1, 0, k / cuts), Vec3(1, 1, k / cuts), Vec3(1, 1, (k + 1) / cuts), Vec3(1, 0, (k + 1) / cuts)}));
+  const mesh::ElementMesh mesh(std::move(patches));
+  const scene::Scene scene = tiny::Floor(1).scene;
+  TrueColour options;
+  options.white = 1;
+  options.smooth = false;
+  const std::vector<std::array<double, 3>> rgb(2 + cuts, {1, 1, 1});
+  int dark = 0;
+  for (double turn = 0; turn < 10; ++turn) {
+    options.camera =
+        scene::Camera{"", Vec3(0.2 + 0.03 * turn, -2, 0.6), Vec3(0.9, 0, 0.4), Vec3(0.1, 0, 1), 30, 160, 120};
+    const core::Image image = true_colour(display(), scene, mesh, rgb, options);
+    for (float v : image.data) dark += v < 1;
+  }
+  EXPECT_EQ(dark, 0);
+}
+
 TEST(PictureFile, is_written_without_a_display_in_the_environment) {
   const test::Environment none("DISPLAY", nullptr);
   const test::TemporaryFolder scratch;

@@ -29,7 +29,8 @@ visual::Plot plot(std::vector<double> x, std::vector<double> y) {
 // The frame spans 90 .. 670 across and 560 .. 50 up: (1, 1) of decades 0.1 .. 10 lies in its middle.
 TEST(Plot, puts_points_where_their_logarithms_are) {
   const core::Image picture = visual::plot_picture(plot({0.1, 1, 10}, {0.1, 1, 10}));
-  EXPECT_EQ(picture.width, 970);
+  EXPECT_EQ(picture.width, 1040);
+  EXPECT_EQ(picture.height, 620);
   EXPECT_NEAR(picture.at(380, 305, 0), 31 / 255.0, 1e-6);
   EXPECT_NEAR(picture.at(380, 305, 2), 180 / 255.0, 1e-6);
   EXPECT_NEAR(picture.at(235, 432, 0), 31 / 255.0, 0.2);  // on the line between
@@ -41,4 +42,27 @@ TEST(Plot, leaves_out_what_has_no_logarithm) {
   const core::Image good = visual::plot_picture(plot({0.2, 5}, {0.2, 5}));
   EXPECT_EQ(differing(good, visual::plot_picture(plot({0.2, 0, nan, 1, inf, 5}, {0.2, 1, 1, -1, 1, 5}))), 0);
   EXPECT_GT(differing(good, visual::plot_picture(plot({}, {}))), 100);
+}
+
+TEST(Plot, many_curves_are_in_panels_with_axes_of_their_own_and_few_in_one) {
+  visual::Plot both = plot({0.1, 1, 10}, {0.1, 1, 10});
+  for (int k = 1; k < 9; ++k) {
+    EXPECT_EQ(visual::plot_picture(both).height, 620);
+    both.curves.push_back({"", {1e3, 1e4, 1e5}, {1e3, 1e4, 1e5}, "second"});
+  }
+  const core::Image picture = visual::plot_picture(both);
+  EXPECT_EQ(picture.height, 2 * 620);
+  EXPECT_NEAR(picture.at(380, 305, 2), 180 / 255.0, 1e-6);  // the first curve's colour
+  EXPECT_LT(picture.at(235, 432, 0), 0.4);                  // on its line
+  EXPECT_LT(picture.at(235, 620 + 432, 2), 0.8);            // on the others'
+}
+
+TEST(Plot, curves_that_lie_on_each_other_both_show) {
+  visual::Plot both = plot({0.1, 1, 10}, {0.1, 1, 10});
+  both.curves.push_back({"", {0.1, 1, 10}, {0.1, 1, 10}});
+  const core::Image picture = visual::plot_picture(both),
+                    first = visual::plot_picture(plot({0.1, 1, 10}, {0.1, 1, 10}));
+  EXPECT_NEAR(picture.at(381, 304, 2), first.at(381, 304, 2),
+              1e-6);  // a full marker within the hollow one of the second
+  EXPECT_GT(differing(picture, first), 300);
 }

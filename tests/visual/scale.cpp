@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 using namespace interflect::visual;
 
@@ -33,6 +34,33 @@ TEST(Scale, ticks_are_round_and_reach_the_ends) {
         EXPECT_GE(ticks.size(), 5u);
         EXPECT_LE(ticks.size(), 13u);
       }
+}
+
+TEST(Scale, a_logarithmic_range_spans_what_is_in_view_by_powers_of_ten) {
+  const Range range = logarithmic_range(std::vector<double>{0.03, 0.3, 42, 9000, 0, std::nan("")},
+                                        std::vector<double>{10, 50, 39.5, 0.5, 100, 10});
+  EXPECT_NEAR(range.low / 0.02, 1, 1e-12);
+  EXPECT_NEAR(range.high / 50, 1, 1e-12);
+  EXPECT_EQ(range.part(range.low), 0);
+  EXPECT_EQ(range.part(range.high), 1);
+  EXPECT_NEAR(range.part(1), 0.5, 1e-12);  // 1 is the mean of 0.02 and 50
+  EXPECT_EQ(range.part(0), 0);
+  EXPECT_EQ(range.part(-1), 0);
+  EXPECT_TRUE(std::isnan(range.part(std::nan(""))));
+
+  const Range wide = logarithmic_range(std::vector<double>{1e-9, 30}, {});
+  EXPECT_NEAR(wide.low / 2e-3, 1, 1e-12);  // four decades below 30, rounded
+  const Range nothing = logarithmic_range(std::vector<double>{0, 0}, {});
+  EXPECT_GT(nothing.high, nothing.low);
+  const Range one = logarithmic_range(std::vector<double>{2, 2}, {});
+  EXPECT_GT(one.high, one.low);
+}
+
+TEST(Scale, ticks_of_a_logarithmic_range_are_one_two_and_five_times_powers_of_ten) {
+  const std::vector<double> known{0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5}, ticks = ticks_of({0.02, 5, true});
+  ASSERT_EQ(ticks.size(), known.size());
+  for (std::size_t k = 0; k < known.size(); ++k) EXPECT_NEAR(ticks[k] / known[k], 1, 1e-12);
+  EXPECT_EQ(ticks_of({1e-12, 1, true}).size(), 13u);  // of many decades the powers alone
 }
 
 TEST(Scale, labels_have_the_digits_that_their_steps_need) {

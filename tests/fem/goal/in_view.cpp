@@ -100,7 +100,7 @@ std::vector<double> by_other_rays(const scene::Camera& camera, std::span<const s
   std::vector<double> sums(3 * patches.size(), 0.0);
   const Vec3 ahead = (camera.target - camera.eye).normalized(), right = ahead.cross(camera.up).normalized(),
              above = right.cross(ahead);
-  const double high = std::tan(camera.fov_y_deg / 360 * pi), wide = high * camera.width / camera.height;
+  const double high = std::tan(std::get<scene::Pinhole>(camera.projection).fov_y_deg / 360 * pi), wide = high * camera.width / camera.height;
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
       const Vec3 along =

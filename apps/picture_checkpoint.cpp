@@ -1,0 +1,59 @@
+#include "apps/picture_checkpoint.h"
+
+#include "core/build_info.h"
+#include "results/digest.h"
+#include "results/record.h"
+#include "scene/io/text_file.h"
+
+namespace interflect::apps {
+namespace {
+
+/// Of all that a path can meet: the file as it is written, and of what it names facets of meshes and a picture of the
+/// sky.
+std::string picture_digest(const scene::Scene& scene) {
+  results::Digest digest;
+  for (const char c : scene::io::read_bytes(scene.file, scene.file.string())) digest.add(static_cast<std::uint64_t>(c));
+  for (const scene::Facet& facet : scene.facets) {
+    digest.add(std::uint64_t{facet.surface.value});
+    for (const Vec3& corner : facet.corner) digest.add(corner);
+  }
+  if (const auto* sky = std::get_if<scene::EnvironmentMap>(&scene.lights.sky))
+    for (int row = 0; row < sky->rows(); ++row)
+      for (int column = 0; column < sky->columns(); ++column)
+        for (int c = 0; c < scene.channel_count(); ++c) digest.add(sky->texel(row, column)[c]);
+  return digest.text();
+}
+
+}  // namespace
+
+montecarlo::RenderSettings render_settings(const TraceOptions& options) {
+  return {static_cast<std::uint64_t>(options.samples), options.filter, options.sequence};
+}
+
+PictureCheckpoint::PictureCheckpoint(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
+                                     const CommonOptions& common)
+    : file_(options.image), size_(montecarlo::render_state_size(scene, camera, render_settings(options))) {
+  file_.replace_extension(".checkpoint.h5");
+  of_.digest = picture_digest(scene);
+  results::Record settings;  // not how many samples: more may be asked for
+  of_.settings = results::json_text(settings.add("version", core::build_info().version)
+                                        .add("camera", scene.camera(camera).name)
+                                        .add("seed", common.seed)
+                                        .add("filter", options.filter)
+                                        .add("sequence", options.sequence)
+                                        .add("intersector", options.intersector));
+}
+
+void PictureCheckpoint::write(const montecarlo::FilmState& state) const {
+  results::Checkpoint now = of_;
+  now.matrices.push_back({"film", state});
+  results::write_checkpoint(file_, now);
+}
+
+montecarlo::FilmState PictureCheckpoint::read() const {
+  results::Checkpoint expected = of_;
+  expected.matrices.push_back({"film", solvers::ColumnMatrix(size_.first, size_.second)});
+  return results::read_checkpoint(file_, expected).matrix("film");
+}
+
+}  // namespace interflect::apps

@@ -1,0 +1,316 @@
+#include "montecarlo/light_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/format.h"
+#include "montecarlo/measured_patches.h"
+#include "montecarlo/sampling.h"
+#include "montecarlo/sight.h"
+#include "montecarlo/splat_targets.h"
+#include "montecarlo/tally.h"
+
+namespace interflect::montecarlo {
+namespace {
+
+constexpr std::uint64_t paths_per_block = 256, blocks_per_wave = 1024, first_round = 1u << 14;
+constexpr std::uint64_t fewest_scores = 25;  ///< below which an interval is too short by far
+constexpr double likeliest = 0.999;          ///< to go on
+
+/// Dimensions: the light and how its light leaves, then what is joined with that; then a vertex after the other.
+constexpr std::uint32_t emission_block = 0, first_vertex_block = 6, blocks_per_vertex = 6;
+
+/// What paths add to measurements.
+struct Scores {
+  struct Score {
+    std::uint32_t measurement;
+    Tally tally;  ///< of the paths that added something
+  };
+  std::vector<Score> of;
+};
+
+/// What one path adds, measurement by measurement.
+class Deposits {
+ public:
+  void clear() { of_.clear(); }
+  void add(std::uint32_t measurement, const Spectrum& value) {
+    for (auto& [m, sum] : of_)
+      if (m == measurement) {
+        sum += value;
+        return;
+      }
+    of_.emplace_back(measurement, value);
+  }
+  std::span<const std::pair<std::uint32_t, Spectrum>> of() const { return of_; }
+
+ private:
+  std::vector<std::pair<std::uint32_t, Spectrum>> of_;
+};
+
+/// Paths from the lights of a scene.
+class LightPaths {
+ public:
+  LightPaths(const scene::Scene& scene, std::span<const measure::Measurement> asked, const raycast::RayCaster& caster)
+      : lights_(scene), optics_(scene), sight_(caster, lights_, optics_), patches_(asked), targets_(scene, asked) {
+    std::vector<double> power;
+    for (std::uint32_t l = 0; l < lights_.size(); ++l) power.push_back(lights_[l].flux().max());
+    if (std::any_of(power.begin(), power.end(), [](double each) { return each > 0; })) by_power_ = AliasTable(power);
+    powers_ = std::move(power);
+    require_joinable(scene);
+  }
+
+  bool dark() const { return by_power_.size() == 0; }
+  const LightSet& lights() const { return lights_; }
+  const SplatTargets& targets() const { return targets_; }
+
+  void trace(core::RandomNumbers& numbers, Deposits& deposits) const;
+
+ private:
+  void require_joinable(const scene::Scene& scene) const {
+    if (targets_.empty()) return;
+    if (const auto mirror = optics_.any_mirror())
+      throw core::InputError("light tracing", "points and pixels do not see what '" + scene.surface(*mirror).name +
+                                                  "' shows: path tracing does");
+    if (!targets_.films().empty() && lights_.first_infinite() < lights_.size())
+      throw core::InputError("light tracing", "pixels do not see the sky: path tracing does");
+  }
+
+  /// Light that has not met a surface yet.
+  void join_emission(std::uint32_t light, const Emission& emission, double probability, core::RandomNumbers& numbers,
+                     Deposits& deposits) const;
+  /// @param sends  the intensity towards a direction, per flux that is carried [1/sr]
+  template <class Sends>
+  void join(const Vec3& y, const Vec3& normal, std::optional<std::uint32_t> light, const Sends& sends, bool points,
+            const std::array<double, 4>& u, Deposits& deposits) const;
+
+  LightSet lights_;
+  SurfaceOptics optics_;
+  Sight sight_;
+  MeasuredPatches patches_;
+  SplatTargets targets_;
+  AliasTable by_power_;
+  std::vector<double> powers_;
+};
+
+/// To one of the points and one pixel's camera, each drawn evenly.
+template <class Sends>
+void LightPaths::join(const Vec3& y, const Vec3& normal, std::optional<std::uint32_t> light, const Sends& sends,
+                      bool points, const std::array<double, 4>& u, Deposits& deposits) const {
+  const auto towards = [&](const Vec3& way) { return normal.dot(way) >= 0 ? normal : Vec3(-normal); };
+  if (const auto all = targets_.points(); points && !all.empty()) {
+    const auto& point = all[std::min(all.size() - 1, static_cast<std::size_t>(u[0] * static_cast<double>(all.size())))];
+    const Vec3 way = point.position - y;
+    const double square = way.squaredNorm(), r = std::sqrt(square), cos_x = -point.normal.dot(way) / r;
+    if (cos_x > 0) {
+      const Spectrum sent = sends(Vec3(way / r));
+      if (!sent.is_zero())
+        deposits.add(point.measurement, sent * sight_.let_pass({y, point.position, towards(way), point.normal}, light) *
+                                            (cos_x / square * static_cast<double>(all.size())));
+    }
+  }
+  if (const auto all = targets_.films(); !all.empty()) {
+    const auto& film = all[std::min(all.size() - 1, static_cast<std::size_t>(u[1] * static_cast<double>(all.size())))];
+    const auto image = film.map.image_of(y, scene::uniform_disk(u[2], u[3]));
+    const std::uint32_t measurement = image ? film.at(image->film) : SplatTargets::Film::none;
+    if (measurement == SplatTargets::Film::none) return;
+    const Spectrum sent = sends(Vec3(-image->ray.direction));
+    if (sent.is_zero()) return;
+    deposits.add(measurement, sent * sight_.let_pass({y, image->ray.origin, towards(-image->ray.direction)}, light) *
+                                  (image->pdf_area * static_cast<double>(all.size())));
+  }
+}
+
+void LightPaths::join_emission(std::uint32_t light, const Emission& emission, double probability,
+                               core::RandomNumbers& numbers, Deposits& deposits) const {
+  const double pick = numbers.next(), which = numbers.next(), u = numbers.next(), v = numbers.next(),
+               film = numbers.next(), lens_u = numbers.next(), lens_v = numbers.next();
+  // Points draw from their own place what arrives there: from a place on the light it would vary without end.
+  if (const auto all = targets_.points(); !all.empty()) {
+    const auto& point =
+        all[std::min(all.size() - 1, static_cast<std::size_t>(which * static_cast<double>(all.size())))];
+    const Place place{point.position, point.normal};
+    const auto [picked, chance] = lights_.pick(place, pick);
+    const auto arriving = chance > 0 ? lights_[picked].sample_arriving(place, u, v) : std::nullopt;
+    const double cosine = arriving ? point.normal.dot(arriving->way) : 0;
+    if (cosine > 0) {
+      const Vec3 from =
+          std::isfinite(arriving->distance) ? arriving->position : lights_.beyond(point.position, arriving->way);
+      const double pdf = arriving->pdf_solid_angle > 0 ? arriving->pdf_solid_angle : 1;
+      deposits.add(point.measurement,
+                   arriving->light * sight_.let_pass({point.position, from, point.normal, arriving->normal}, picked) *
+                       (cosine / (pdf * chance) * static_cast<double>(all.size())));
+    }
+  }
+  if (emission.normal.isZero()) return;  // a point's own picture is nothing
+  const auto sends = [&](const Vec3& way) {
+    const double cosine = emission.normal.dot(way);
+    return cosine > 0 ? lights_[light].radiance(emission.position, way) * (cosine / (emission.pdf_area * probability))
+                      : Spectrum::zero();
+  };
+  join(emission.position, emission.normal, light, sends, false, {0, film, lens_u, lens_v}, deposits);
+}
+
+void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
+  numbers.jump(emission_block);
+  const std::uint32_t light = by_power_.pick(numbers.next());
+  const double probability = powers_[light] / by_power_.total();
+  std::array<double, 4> u;
+  for (double& each : u) each = numbers.next();
+  const Emission emission = lights_[light].sample_emission(u);
+  Spectrum flux = emission.weight / probability;
+  if (!targets_.empty()) join_emission(light, emission, probability, numbers, deposits);
+  const double at_first = flux.max();
+  if (!(at_first > 0)) return;
+  const bool from_afar = lights_[light].is_infinite();
+  raycast::Ray ray{emission.position, emission.way, from_afar ? Vec3(Vec3::Zero()) : emission.normal};
+  std::vector<MeasuredPatches::Share> shares;
+  for (std::uint32_t block = first_vertex_block;; block += blocks_per_vertex) {
+    const auto hit = sight_.met(ray).surface;
+    if (!hit) return;
+    patches_.at(*hit, shares);
+    for (const auto& [measurement, per_flux] : shares) deposits.add(measurement, flux * per_flux);
+    const Bsdf* bsdf = optics_.bsdf(hit->surface);
+    if (bsdf == nullptr) return;
+    const Frame frame = frame_around(front_normal(*hit));
+    const Vec3 from = frame.to_local(-ray.direction);
+    numbers.jump(block);
+    const double lobe = numbers.next(), a = numbers.next(), b = numbers.next(), survival = numbers.next();
+    if (!targets_.empty() && !bsdf->only_delta()) {
+      std::array<double, 4> joint;
+      for (double& each : joint) each = numbers.next();
+      const auto sends = [&](const Vec3& way) {
+        const Vec3 to = frame.to_local(way);
+        return flux * bsdf->f(from, to) * std::abs(to.z());
+      };
+      join(hit->position, frame.n, std::nullopt, sends, true, joint, deposits);
+    }
+    const auto on = bsdf->sample(from, {lobe, a, b}, Walk::from_light);
+    if (!on) return;
+    flux *= on->weight;
+    const double survives = std::min(likeliest, flux.max() / at_first);
+    if (!(survival < survives)) return;
+    flux /= survives;
+    ray = {hit->position, frame.to_world(on->way), on->way.z() >= 0 ? frame.n : Vec3(-frame.n)};
+  }
+}
+
+Scores scores_of_block(const LightPaths& paths, const scene::Scene& scene, std::uint64_t seed, std::uint64_t first,
+                       std::uint64_t end) {
+  struct Entry {
+    std::uint32_t measurement;
+    std::uint64_t path;
+    Spectrum value;
+  };
+  std::vector<Entry> entries;
+  Deposits deposits;
+  for (std::uint64_t k = first; k < end; ++k) {
+    core::RandomNumbers numbers(seed, 0, k);
+    deposits.clear();
+    paths.trace(numbers, deposits);
+    for (const auto& [measurement, value] : deposits.of()) entries.push_back({measurement, k, value});
+  }
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.measurement < b.measurement; });
+  Scores scores;
+  for (const Entry& each : entries) {
+    if (scores.of.empty() || scores.of.back().measurement != each.measurement)
+      scores.of.push_back({each.measurement, {}});
+    scores.of.back().tally.add(each.value, scene.weigh(each.value), each.path);
+  }
+  return scores;
+}
+
+/// Paths that added nothing.
+Tally of_none(std::uint64_t count) {
+  Tally tally;
+  tally.moments = core::Moments(count, Spectrum::zero(), Spectrum::zero());
+  tally.weighed = core::ScalarMoments(count, 0, 0);
+  return tally;
+}
+
+struct Rounds {
+  const LightPaths& paths;
+  const scene::Scene& scene;
+  std::vector<Tally> scored;  ///< by measurement
+  std::uint64_t done = 0;
+
+  /// Until so many paths were traced, or the run is stopped.
+  void trace(std::uint64_t until, std::uint64_t seed, Run& run) {
+    core::Progress::Stage stage(run.progress, "light tracing", until - done);
+    while (done < until && !run.stop.stop_requested()) {
+      const std::uint64_t some = std::min(until - done, paths_per_block * blocks_per_wave);
+      const auto blocks = static_cast<Index>((some + paths_per_block - 1) / paths_per_block);
+      std::vector<Scores> of(static_cast<std::size_t>(blocks));
+      run.threads.for_blocks(blocks, 1, [&](Index b, Index) {
+        const std::uint64_t first = done + static_cast<std::uint64_t>(b) * paths_per_block;
+        of[static_cast<std::size_t>(b)] =
+            scores_of_block(paths, scene, seed, first, std::min(first + paths_per_block, done + some));
+        stage.advance(paths_per_block);
+      });
+      for (const Scores& block : of)
+        for (const auto& [measurement, tally] : block.of) scored[measurement].merge(tally);
+      done += some;
+    }
+  }
+  Tally tally(std::size_t measurement) const {
+    Tally all = scored[measurement];
+    all.merge(of_none(done - all.moments.count()));
+    return all;
+  }
+};
+
+/// What an irradiance of 1 everywhere would measure.
+double scale_of(const measure::Measurement& asked) {
+  if (const auto* flux = std::get_if<measure::Flux>(&asked)) {
+    double area = 0;
+    for (const scene::SurfacePatch& patch : flux->through) area += patch.area;
+    return area;
+  }
+  return std::holds_alternative<measure::PixelRadiance>(asked) ? inv_pi : 1;
+}
+
+bool are_met(const Rounds& rounds, std::span<const measure::Measurement> asked, const SamplingTarget& target) {
+  for (std::size_t m = 0; m < asked.size(); ++m) {
+    if (rounds.scored[m].moments.count() < fewest_scores) return false;
+    const Tally tally = rounds.tally(m);
+    if (tally.weighed.standard_error() > target.standard_error(tally.weighed.mean(), scale_of(asked[m]))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Estimate> LightTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                                          Run& run) const {
+  if (settings_.paths == 1 || settings_.max_paths < 2)
+    throw core::InputError("light tracing", "at least 2 paths expected: one has no standard error");
+  const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
+  const LightPaths paths(scene, asked, *caster);
+  if (paths.dark())
+    return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  const SamplingTarget target{
+      settings_.target, settings_.target * settings_.target_floor * mean_irradiance_scale(scene, paths.lights().flux()),
+      first_round, settings_.max_paths};
+  const std::uint64_t seed = core::derived_seed(run.seed, "light tracer");
+  Rounds rounds{paths, scene, std::vector<Tally>(asked.size())};
+  if (settings_.paths > 0) {
+    rounds.trace(settings_.paths, seed, run);
+  } else {
+    for (std::uint64_t until = first_round; until <= settings_.max_paths && !run.stop.stop_requested(); until *= 2) {
+      rounds.trace(until, seed, run);
+      if (are_met(rounds, asked, target)) break;
+    }
+  }
+  if (rounds.done < 2) run.throw_if_stopped("light tracing");
+  std::vector<Estimate> estimates;
+  const Spectrum flux = paths.lights().flux();
+  for (std::size_t m = 0; m < asked.size(); ++m) {
+    const auto* patch = std::get_if<measure::PatchIrradiance>(&asked[m]);
+    estimates.push_back(rounds.tally(m).estimate(patch ? flux / patch->patch.area : flux));
+  }
+  for (const auto& [again, as] : paths.targets().again()) estimates[again] = estimates[as];
+  return estimates;
+}
+
+}  // namespace interflect::montecarlo

@@ -1,0 +1,40 @@
+#include "montecarlo/sight.h"
+
+#include <limits>
+
+#include "montecarlo/warp.h"
+
+namespace interflect::montecarlo {
+
+Sight::Met Sight::met(const raycast::Ray& ray) const {
+  Met met{caster_.closest(ray), std::nullopt};
+  if (lights_.balls().empty()) return met;
+  const double before =
+      met.surface ? (met.surface->position - ray.origin).norm() : std::numeric_limits<double>::infinity();
+  met.ball = lights_.balls().closest(ray.origin, ray.direction, before);
+  if (met.ball) met.surface.reset();
+  return met;
+}
+
+Spectrum Sight::let_pass(const raycast::Segment& segment, std::optional<std::uint32_t> of) const {
+  const Balls& balls = lights_.balls();
+  if (!balls.empty() && balls.block(segment.from, segment.to, of ? lights_.ball_of(*of) : Balls::none))
+    return Spectrum::zero();
+  if (!optics_.any_lets_pass()) return caster_.occluded(segment) ? Spectrum::zero() : Spectrum(1);
+  raycast::Segment left = segment;
+  Spectrum passes(1);
+  const Vec3 way = (segment.to - segment.from).normalized();
+  while (caster_.occluded(left)) {
+    const auto hit = caster_.closest({left.from, way, left.from_normal});
+    if (!hit) return Spectrum::zero();  // what blocks is met within rounding alone
+    const Bsdf* bsdf = optics_.bsdf(hit->surface);
+    if (bsdf == nullptr || !bsdf->lets_pass()) return Spectrum::zero();
+    passes *= bsdf->straight(frame_around(front_normal(*hit)).to_local(-way));
+    if (passes.is_zero()) return passes;
+    left.from = hit->position;
+    left.from_normal = -hit->normal;
+  }
+  return passes;
+}
+
+}  // namespace interflect::montecarlo

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "montecarlo/light/light_set.h"
+#include "montecarlo/surface_optics.h"
+#include "raycast/ray_caster.h"
+
+namespace interflect::montecarlo {
+
+/// What rays meet in a scene, and what of light comes from one place to another: surfaces, and balls that shine, which
+/// nothing passes.
+class Sight {
+ public:
+  /// All must outlive it.
+  Sight(const raycast::RayCaster& caster, const LightSet& lights, const SurfaceOptics& optics)
+      : caster_(caster), lights_(lights), optics_(optics) {}
+
+  /// What a ray meets first: a surface, a ball that shines, or neither.
+  struct Met {
+    std::optional<scene::SurfacePoint> surface;
+    std::optional<Balls::Hit> ball;
+  };
+  Met met(const raycast::Ray& ray) const;
+
+  /// What of light passes between two places: all, nothing, or what panes and nets between them let straight through.
+  /// @param of  the light at the segment's end, if it is one
+  Spectrum let_pass(const raycast::Segment& segment, std::optional<std::uint32_t> of = {}) const;
+
+ private:
+  const raycast::RayCaster& caster_;
+  const LightSet& lights_;
+  const SurfaceOptics& optics_;
+};
+
+}  // namespace interflect::montecarlo

@@ -1,0 +1,553 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "montecarlo/light/environment.h"
+#include "montecarlo/light/light_set.h"
+#include "montecarlo/light/point.h"
+#include "montecarlo/light/rectangle.h"
+#include "montecarlo/light/sky.h"
+#include "montecarlo/light/sphere.h"
+#include "montecarlo/light/spot.h"
+#include "montecarlo/light/sun.h"
+#include "montecarlo/light/triangle.h"
+#include "montecarlo/warp/cone.h"
+#include "tests/support/chi_squared.h"
+#include "tests/support/shapes.h"
+
+// Lights by themselves: what they draw, how densely, and what it is worth.  (In paths: lit_scenes.cpp.)
+namespace interflect::montecarlo {
+namespace {
+
+Spectrum grey(double value) {
+  Spectrum s;
+  s[0] = value;
+  return s;
+}
+
+constexpr double almost_one = 1 - 0x1p-53;
+constexpr double alpha = 1e-3;  ///< of all chi-squared tests of this file together, which are fewer than 64
+
+Spectrum colour(double a, double b) {
+  Spectrum s;
+  s[0] = a, s[1] = b;
+  return s;
+}
+
+std::array<double, 4> numbers_of(std::uint32_t stream, std::uint64_t k) {
+  core::RandomNumbers numbers(11, stream, k);
+  std::array<double, 4> u;
+  for (double& each : u) each = numbers.next();
+  return u;
+}
+
+const geometry::Box unit_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+
+/// A bright and a dim half, a dark row, a single bright texel.
+scene::EnvironmentMap some_map(const Vec3& up = Vec3::UnitZ()) {
+  std::vector<Spectrum> texels;
+  for (int r = 0; r < 8; ++r)
+    for (int c = 0; c < 16; ++c)
+      texels.push_back(r == 2 ? Spectrum::zero() : r == 1 && c == 5 ? colour(90, 5) : colour(c < 8 ? 1 : 3, 2));
+  const Vec3 middle = up.z() > 0.5 ? Vec3::UnitY() : Vec3(-Vec3::UnitZ());
+  return {up, middle, 8, 16, std::move(texels)};
+}
+
+struct Named {
+  std::string name;
+  std::unique_ptr<Light> light;
+  Place at;
+  /// Where a ray from `at` meets it.
+  std::function<std::optional<Vec3>(const Vec3& way)> met;
+  Vec3 axis;    ///< directions that are drawn lie in a cone about it,
+  double cone;  ///< of this 1 - cosine
+};
+
+std::optional<Vec3> on_plane(const Vec3& x, const Vec3& way, const Vec3& corner, const Vec3& normal) {
+  const double t = (corner - x).dot(normal) / way.dot(normal);
+  return t > 0 && way.dot(normal) < 0 ? std::optional<Vec3>(x + t * way) : std::nullopt;
+}
+
+/// Everything that draws ways with a density, near and far.
+std::vector<Named> all_kinds() {
+  static const scene::EnvironmentMap map = some_map(), turned = some_map(Vec3::UnitY());
+  std::vector<Named> kinds;
+  const Spectrum E = colour(2, 5);
+  const Vec3 n = Vec3(1, -2, -3).normalized(), s = n.cross(Vec3::UnitX()).normalized(), t = n.cross(s);
+  const std::array<Vec3, 3> corner{Vec3(1, 2, 3), Vec3(1, 2, 3) + 2 * t + s, Vec3(1, 2, 3) + 1.5 * s};
+  const Vec3 up = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+  for (const double d : {.15, .5, 6.}) {
+    const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3, x = middle + d * up + .1 * t;
+    const auto met = [=](const Vec3& way) -> std::optional<Vec3> {
+      const auto y = on_plane(x, way, corner[0], up);
+      if (!y) return y;
+      for (std::size_t k = 0; k < 3; ++k)
+        if ((corner[(k + 1) % 3] - corner[k]).cross(*y - corner[k]).dot(up) < 0) return std::nullopt;
+      return y;
+    };
+    kinds.push_back({"triangle",
+                     std::make_unique<TriangleLight>(corner, up, E),
+                     {x, -up},
+                     met,
+                     -up,
+                     d > 1 ? 1 - d / std::hypot(d, 2.2) : 1});
+    const Vec3 a = Vec3(1, 2, 3), u = 2 * s, v = 1.2 * t, down = -u.cross(v).normalized(),
+               from = a + u / 2 + v / 3 + d * down;
+    const auto in_rectangle = [=](const Vec3& way) -> std::optional<Vec3> {
+      const auto y = on_plane(from, way, a, down);
+      if (!y) return y;
+      const double p = (*y - a).dot(s), q = (*y - a).dot(t);
+      return p >= 0 && p <= 2 && q >= 0 && q <= 1.2 ? y : std::nullopt;
+    };
+    kinds.push_back({"rectangle",
+                     std::make_unique<RectangleLight>(a, u, v, down, E),
+                     {from, -down},
+                     in_rectangle,
+                     -down,
+                     d > 1 ? 1 - d / std::hypot(d, 1.3) : 1});
+  }
+  for (const double d : {.51, 2.}) {
+    const scene::SphereLight ball{"ball", Vec3(0, 0, d), .5, E};
+    const auto met = [=](const Vec3& way) -> std::optional<Vec3> {
+      Balls balls;
+      balls.add(ball.centre, ball.radius);
+      const auto hit = balls.closest(Vec3::Zero(), way, infinite);
+      return hit ? std::optional<Vec3>(hit->position) : std::nullopt;
+    };
+    kinds.push_back({"sphere",
+                     std::make_unique<BallLight>(ball),
+                     {Vec3::Zero(), Vec3::UnitZ()},
+                     met,
+                     Vec3::UnitZ(),
+                     d < 1 ? 1 : .05});
+  }
+  const auto anywhere = [](const Vec3&) { return std::optional<Vec3>(Vec3::Zero()); };
+  const Vec3 sunward = Vec3(1, 1, 2).normalized();
+  kinds.push_back({"sun",
+                   std::make_unique<SunLight>(scene::Sun{"sun", -sunward, E}, unit_box),
+                   {Vec3::Zero(), Vec3::UnitZ()},
+                   anywhere,
+                   sunward,
+                   1.5e-5});
+  kinds.push_back({"sun",
+                   std::make_unique<SunLight>(scene::Sun{"wide", -sunward, E, .3}, unit_box),
+                   {Vec3::Zero(), Vec3::UnitZ()},
+                   anywhere,
+                   sunward,
+                   .1});
+  const scene::Sky sky{Vec3::UnitZ(), E, {}}, ground{Vec3::UnitZ(), E, colour(1, 1)};
+  kinds.push_back(
+      {"sky", std::make_unique<SkyLight>(sky, unit_box), {Vec3::Zero(), Vec3::UnitZ()}, anywhere, Vec3::UnitZ(), 1});
+  kinds.push_back({"sky and ground",
+                   std::make_unique<SkyLight>(ground, unit_box),
+                   {Vec3::Zero(), Vec3::UnitX()},
+                   anywhere,
+                   Vec3::UnitX(),
+                   1});
+  kinds.push_back({"sky from both sides",
+                   std::make_unique<SkyLight>(ground, unit_box),
+                   {Vec3::Zero(), Vec3::Zero()},
+                   anywhere,
+                   Vec3::UnitZ(),
+                   2});
+  kinds.push_back({"map",
+                   std::make_unique<EnvironmentLight>(map, unit_box),
+                   {Vec3::Zero(), Vec3::UnitZ()},
+                   anywhere,
+                   Vec3::UnitZ(),
+                   2});
+  kinds.push_back({"map, y up",
+                   std::make_unique<EnvironmentLight>(turned, unit_box),
+                   {Vec3::Zero(), Vec3::UnitZ()},
+                   anywhere,
+                   Vec3::UnitY(),
+                   2});
+  return kinds;
+}
+
+// Half a million ways fall where the pdf says; the pdf of a draw is that of its inverse; all of them integrate to 1.
+TEST(Lights, draw_what_arrives_as_they_say) {
+  constexpr int n = 500'000, rows = 16, columns = 16, fine = 32;
+  std::uint32_t stream = 0;
+  for (const Named& of : all_kinds()) {
+    const Frame frame = frame_around(of.axis);
+    std::vector<double> counts(rows * columns), expected(rows * columns);
+    for (int a = 0; a < rows * fine; ++a)
+      for (int b = 0; b < columns * fine; ++b) {
+        const Vec3 way = frame.to_world(uniform_cone(of.cone, (a + .5) / (rows * fine), (b + .5) / (columns * fine)));
+        const auto y = of.met(way);
+        if (!y || of.light->radiance(*y, -way).is_zero()) continue;
+        const double p = of.light->pdf_arriving_solid_angle(of.at, way, *y) * 2 * pi * of.cone;
+        expected[static_cast<std::size_t>(a / fine * columns + b / fine)] += n * p / (rows * fine * columns * fine);
+      }
+    ++stream;
+    double drawn = 0;
+    for (std::uint64_t k = 0; k < n; ++k) {
+      const auto u = numbers_of(stream, k);
+      const auto s = of.light->sample_arriving(of.at, u[0], u[1]);
+      if (!s) continue;
+      ++drawn;
+      const Vec2 at = uniform_cone_inverse(of.cone, frame.to_local(s->way));
+      ASSERT_LT(at.x(), 1 + 1e-9) << of.name;
+      const int a = std::min(rows - 1, static_cast<int>(at.x() * rows)),
+                b = std::min(columns - 1, static_cast<int>(at.y() * columns));
+      ++counts[static_cast<std::size_t>(a * columns + b)];
+      if (k % 64 != 0) continue;
+      EXPECT_NEAR(s->way.norm(), 1, 1e-12);
+      EXPECT_NEAR(of.light->pdf_arriving_solid_angle(of.at, s->way, s->position) / s->pdf_solid_angle, 1, 1e-9)
+          << of.name;
+      EXPECT_EQ(of.light->radiance(s->position, -s->way), s->light) << of.name;
+      if (!of.light->is_infinite()) {
+        EXPECT_NEAR((of.at.position + s->distance * s->way - s->position).norm(), 0, 1e-12) << of.name;
+        EXPECT_NEAR(s->normal.norm(), 1, 1e-12);
+      }
+    }
+    EXPECT_GT(drawn, 0);
+    test::expect_as_expected(counts, expected, alpha / 64, of.name);
+  }
+}
+
+// What leaves has the density that is said; its mean weight is the flux; and it arrives at what it passes as it should.
+TEST(Lights, send_out_as_they_say) {
+  std::vector<Named> kinds = all_kinds();
+  kinds.push_back({"point",
+                   std::make_unique<PointSource>(scene::PointLight{"p", Vec3(1, 2, 3), colour(1, 2)}),
+                   {},
+                   {},
+                   Vec3::UnitZ(),
+                   2});
+  for (const auto& [beam, field] : {std::pair(.9, .6), std::pair(.5, .5), std::pair(1., -.5)})
+    kinds.push_back(
+        {"spot",
+         std::make_unique<Spot>(scene::SpotLight{"s", Vec3(1, 2, 3), Vec3(1, 2, 2) / 3, colour(1, 2), beam, field}),
+         {},
+         {},
+         Vec3(1, 2, 2) / 3,
+         2});
+  kinds.push_back({"parallel",
+                   std::make_unique<SunLight>(scene::Sun{"s", Vec3(0, 0, -1), colour(1, 2), 0}, unit_box),
+                   {},
+                   {},
+                   Vec3::UnitZ(),
+                   2});
+  std::uint32_t stream = 100;
+  for (const Named& of : kinds) {
+    ++stream;
+    constexpr int n = 200'000;
+    double sum = 0, squares = 0;
+    for (std::uint64_t k = 0; k < n; ++k) {
+      const Emission e = of.light->sample_emission(numbers_of(stream, k));
+      sum += e.weight[0], squares += e.weight[0] * e.weight[0];
+      if (k % 64 != 0) continue;
+      const EmissionPdfs p = of.light->pdfs_emission(e.position, e.way);
+      EXPECT_NEAR(p.area / e.pdf_area, 1, 1e-12) << of.name;
+      EXPECT_NEAR(p.solid_angle / e.pdf_solid_angle, 1, 1e-9) << of.name;
+      if (of.light->is_delta()) continue;
+      const double cosine = e.normal.dot(e.way), L = of.light->radiance(e.position, e.way)[0];
+      EXPECT_NEAR(e.weight[0] * e.pdf_area * e.pdf_solid_angle, L * cosine, 1e-9 * L) << of.name;
+    }
+    const double flux = of.light->flux()[0], noise = std::sqrt(std::max(0., squares / n - sum / n * sum / n) / n);
+    EXPECT_NEAR(sum / n, flux, 4.9 * noise + 1e-9 * flux) << of.name;
+  }
+}
+
+// A spot's intensity integrates to its flux in closed form, and ways are drawn in proportion to it.
+TEST(Spots, send_a_flux_of_closed_form) {
+  for (const auto& [beam, field] : {std::pair(.95, .8), std::pair(.5, .5), std::pair(1., 0.), std::pair(.2, -.9)}) {
+    const scene::SpotLight spot{"s", Vec3::Zero(), Vec3::UnitZ(), grey(3), beam, field};
+    double sum = 0;
+    constexpr int n = 200'000;
+    for (int k = 0; k < n; ++k) sum += spot.falloff(2 * (k + .5) / n - 1);
+    EXPECT_NEAR(sum * 2 / n * 2 * pi * 3, spot.flux()[0], 1e-4 * spot.flux()[0]);
+    const Spot light(spot);
+    constexpr int bins = 40, m = 400'000;
+    std::vector<double> counts(bins), expected(bins);
+    for (std::uint64_t k = 0; k < m; ++k) {
+      const double cosine = light.sample_emission(numbers_of(60, k)).way.z();
+      ++counts[static_cast<std::size_t>(std::min<int>(bins - 1, static_cast<int>((cosine + 1) / 2 * bins)))];
+    }
+    for (int k = 0; k < n; ++k) {
+      const double cosine = 2 * (k + .5) / n - 1;
+      const Vec3 way(std::sqrt(1 - cosine * cosine), 0, cosine);
+      expected[static_cast<std::size_t>((cosine + 1) / 2 * bins)] +=
+          m * light.pdfs_emission({}, way).solid_angle * 4 * pi / n;
+    }
+    test::expect_as_expected(counts, expected, alpha / 64, "spot");
+  }
+}
+
+TEST(Warps, of_solid_angles_go_there_and_back) {
+  const SphericalRectangle rectangle(Vec3::Zero(), Vec3(-.3, .2, .7), Vec3::UnitX(), Vec3::UnitY(), 1.2, 1.3);
+  const SphericalTriangle triangle(
+      {Vec3(.5, -.2, 1).normalized(), Vec3(1.2, .4, .8).normalized(), Vec3(-.1, .9, .6).normalized()});
+  std::vector<double> weights{0, 1, 5, 0, 2, 0, 0, 0, 0, 0, 3, 0};
+  const CellTable table(3, 4, weights);
+  for (std::uint64_t k = 0; k < 20'000; ++k) {
+    const auto r = numbers_of(70, k);
+    const Vec2 u(r[0], r[1]);
+    EXPECT_NEAR((rectangle.inverse(rectangle.point(u[0], u[1])) - u).norm(), 0, 1e-12);
+    EXPECT_NEAR((triangle.inverse(triangle.direction(u[0], u[1])) - u).norm(), 0, 1e-12);
+    for (const double cone : {1.0814e-5, .1, 1., 2.})
+      EXPECT_NEAR((uniform_cone_inverse(cone, uniform_cone(cone, u[0], u[1])) - u).norm(), 0, 1e-11) << cone;
+    EXPECT_NEAR((table.inverse(table.pick(u[0], u[1])) - u).norm(), 0, 1e-12);
+    const auto cell = table.pick(u[0], u[1]);
+    EXPECT_GT(table.probability(cell.row.cell, cell.column.cell), 0);
+  }
+  for (const double u : {0., almost_one})
+    for (const double v : {0., almost_one}) {
+      EXPECT_TRUE(rectangle.point(u, v).allFinite());
+      EXPECT_TRUE(triangle.direction(u, v).allFinite());
+      const auto cell = table.pick(u, v);
+      EXPECT_GT(table.probability(cell.row.cell, cell.column.cell), 0);
+    }
+}
+
+// Solid angles and form factors that are known (docs/truths.md; by independent code).
+TEST(Warps, of_solid_angles_have_known_ones) {
+  const SphericalRectangle rectangle(Vec3::Zero(), Vec3(-.3, .2, .7), Vec3::UnitX(), Vec3::UnitY(), 1.2, 1.3);
+  EXPECT_NEAR(rectangle.solid_angle(), .835046076395, 1e-12);
+  const SphericalTriangle triangle(
+      {Vec3(.5, -.2, 1).normalized(), Vec3(1.2, .4, .8).normalized(), Vec3(-.1, .9, .6).normalized()});
+  EXPECT_NEAR(triangle.solid_angle(), .439890018163, 1e-12);
+  EXPECT_NEAR(SphericalTriangle({Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}).solid_angle(), pi / 2, 1e-14);
+  const double s = std::sqrt(.5);
+  EXPECT_NEAR(SphericalTriangle({Vec3::UnitZ(), Vec3(s, 0, s), Vec3(0, s, s)}).solid_angle(), .3398369094541219, 1e-14);
+  double of_rectangle = 0, of_triangle = 0;
+  constexpr int n = 800;
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b) {
+      const double u = (a + .5) / n, v = (b + .5) / n;
+      const Vec2 y = rectangle.point(u, v);
+      of_rectangle += .7 / Vec3(-.3 + y.x(), .2 + y.y(), .7).norm();
+      of_triangle += triangle.direction(u, v).z();
+    }
+  EXPECT_NEAR(of_rectangle * rectangle.solid_angle() / pi / n / n, .18844500, 1e-7);
+  EXPECT_NEAR(of_triangle * triangle.solid_angle() / pi / n / n, .10692718, 3e-7);  // sqrt(v) at a corner
+}
+
+/// Relative variance of one sample of the irradiance, by midpoints of its two numbers.
+template <class Sample>
+double relative_variance(const Sample& sample) {
+  constexpr int n = 1000;
+  double sum = 0, squares = 0;
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b) {
+      const double f = sample((a + .5) / n, (b + .5) / n);
+      sum += f, squares += f * f;
+    }
+  return squares * n * n / (sum * sum) - 1;
+}
+
+// A sampler by solid angle that has the first column is one by area.
+TEST(RectangleLight, has_the_variance_of_what_it_says_it_draws_by) {
+  const struct {
+    double h, area, solid_angle;
+  } known[] = {{.05, 42.1385, .232815}, {.1, 10.3151, .163391},  {.25, 1.445459, .059803},
+               {.5, .255292, .014488},  {1, .0303545, .0018731}, {2, .0024842, .00015510}};
+  for (const auto& [h, area, solid_angle] : known) {
+    const RectangleLight light(Vec3(-.5, -.5, h), Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitZ(), grey(1));
+    const Place at{Vec3::Zero(), Vec3::UnitZ()};
+    const double found = relative_variance([&](double u, double v) {
+      const auto s = light.sample_arriving(at, u, v);
+      return s->way.z() / s->pdf_solid_angle;
+    });
+    const double expected = h < std::sqrt(.5) ? solid_angle : area;  // half its diameter
+    EXPECT_NEAR(found, expected, 1e-3 * expected) << h;
+    const SphericalRectangle seen(Vec3::Zero(), Vec3(-.5, -.5, h), Vec3::UnitX(), Vec3::UnitY(), 1, 1);
+    const double by_solid_angle = relative_variance([&](double u, double v) {
+      const Vec2 y = seen.point(u, v);
+      return h / Vec3(y.x() - .5, y.y() - .5, h).norm();
+    });
+    EXPECT_NEAR(by_solid_angle, solid_angle, 1e-3 * solid_angle) << h;
+  }
+}
+
+TEST(SunLight, has_the_radiance_of_a_small_disk) {
+  const scene::Sun sun{"sun", -Vec3::UnitZ(), grey(1)};
+  EXPECT_NEAR(sun.irradiance[0] / sun.radiance()[0], 6.796665596e-5, 1e-13);
+  EXPECT_NEAR(2 * pi * sun.one_minus_cosine(), 6.796702357e-5, 1e-13);
+}
+
+// A map of one radiance is a sky, and one bright texel lights as its solid angle says.
+TEST(EnvironmentLight, lights_as_its_texels_do) {
+  const scene::EnvironmentMap even(Vec3::UnitZ(), Vec3::UnitY(), 6, 12, std::vector<Spectrum>(72, colour(2, 3)));
+  const EnvironmentLight map(even, unit_box);
+  const SkyLight sky({Vec3::UnitZ(), colour(2, 3), colour(2, 3)}, unit_box);
+  EXPECT_NEAR(map.flux()[1] / sky.flux()[1], 1, 1e-14);
+  const Place at{Vec3::Zero(), Vec3::Zero()};
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    const auto u = numbers_of(80, k);
+    const auto s = map.sample_arriving(at, u[0], u[1]);
+    EXPECT_NEAR(s->pdf_solid_angle, 1 / (4 * pi), 1e-14);
+    EXPECT_EQ(s->light, colour(2, 3));
+  }
+  for (const int row : {0, 1, 2}) {
+    std::vector<Spectrum> texels(72);
+    texels[static_cast<std::size_t>(12 * row + 3)] = colour(7, 1);
+    const scene::EnvironmentMap one(Vec3::UnitZ(), Vec3::UnitY(), 6, 12, texels);
+    const EnvironmentLight light(one, unit_box);
+    const double a = pi * row / 6, b = pi * (row + 1) / 6, dphi = 2 * pi / 12;
+    const double known = 7 * dphi * (std::sin(b) * std::sin(b) - std::sin(a) * std::sin(a)) / 2;
+    double sum = 0;
+    constexpr int n = 300;
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const auto s = light.sample_arriving(at, (j + .5) / n, (k + .5) / n);
+        sum += s->light[0] * s->way.z() / s->pdf_solid_angle;
+        // Column 3 of 12: a quarter of a turn to a third before the middle, which is +y: to its left, -x.
+        EXPECT_LT(s->way.x(), 0);
+      }
+    EXPECT_NEAR(sum / n / n, known, 1e-9 * known) << row;
+  }
+}
+
+// Light from afar reaches the rim of a scene that is long and thin: flux through the disk is pi R² times what comes.
+TEST(LightFromAfar, covers_a_long_thin_scene) {
+  const geometry::Box box(Vec3(-50, -.5, 0), Vec3(50, .5, 0));
+  const scene::EnvironmentMap even(Vec3::UnitZ(), Vec3::UnitY(), 6, 12, std::vector<Spectrum>(72, grey(1)));
+  std::vector<std::pair<std::unique_ptr<Light>, double>> lights;  // with the irradiance of the floor
+  lights.emplace_back(std::make_unique<SkyLight>(scene::Sky{Vec3::UnitZ(), grey(1), {}}, box), pi);
+  lights.emplace_back(std::make_unique<EnvironmentLight>(even, box), pi);
+  lights.emplace_back(std::make_unique<SunLight>(scene::Sun{"s", Vec3(.6, 0, -.8), grey(2)}, box), 1.6);
+  lights.emplace_back(std::make_unique<SunLight>(scene::Sun{"s", Vec3(.6, 0, -.8), grey(2), 0}, box), 1.6);
+  for (const auto& [light, H] : lights) {
+    double rim = 0, middle = 0;
+    constexpr int n = 4'000'000;
+    for (std::uint64_t k = 0; k < n; ++k) {
+      const Emission e = light->sample_emission(numbers_of(90, k));
+      if (!(e.way.z() < 0)) continue;
+      const Vec3 y = e.position - e.position.z() / e.way.z() * e.way;
+      if (std::abs(y.y()) > .5 || std::abs(y.x()) > 50) continue;
+      (std::abs(y.x()) > 49 ? rim : middle) += e.weight[0] / n;
+    }
+    // Hits are of one weight for each light but rare: w sqrt(count) / n.
+    const double w = light->flux()[0] * (H == pi ? 2 : 1);
+    EXPECT_NEAR(rim, 2 * H, 4.9 * std::sqrt(2 * H * w / n)) << H;
+    EXPECT_NEAR(middle, 98 * H, 4.9 * std::sqrt(98 * H * w / n)) << H;
+  }
+}
+
+TEST(BallLight, is_dark_within) {
+  const BallLight light({"b", Vec3(1, 0, 0), 2, grey(3)});
+  const Place within{Vec3(0, 0, 0), Vec3::UnitZ()};
+  EXPECT_FALSE(light.sample_arriving(within, .3, .4));
+  EXPECT_EQ(light.pdf_arriving_solid_angle(within, Vec3::UnitX(), Vec3(3, 0, 0)), 0);
+  EXPECT_TRUE(light.radiance(Vec3(3, 0, 0), -Vec3::UnitX()).is_zero());
+  EXPECT_NEAR(light.flux()[0], 4 * pi * 4 * 3, 1e-12);
+}
+
+// One rectangle is one light, whatever its facets; what is none is a light a facet; and points of each are known again.
+TEST(LightSet, picks_by_power_and_knows_its_lights_at_hits) {
+  scene::SceneBuilder builder({"a", "b"});
+  scene::Material bright, dim;
+  bright.exitance = colour(2, 10);
+  dim.exitance = colour(1, 0);
+  const auto big = builder.add_material(dim), small = builder.add_material(bright), none = builder.add_material({});
+  builder.add_box("big", {Vec3(0, 0, 0), Vec3(2, 2, 2)}, big);
+  builder.add_box("dark", {Vec3(0, 0, 4), Vec3(2, 2, 5)}, none);
+  builder.add_polygon("kite", {{Vec3(5, 0, 0), Vec3(5.1, 0, 0), Vec3(5.2, .3, 0), Vec3(5, .1, 0)}, {}}, small);
+  const scene::Scene scene = builder.finish();
+  const LightSet lights(scene, LightSet::Picking::by_power);
+  ASSERT_EQ(lights.size(), 6u + 2u);
+  EXPECT_EQ(lights.of_facet(0), lights.of_facet(1));
+  EXPECT_FALSE(lights.of_facet(12));
+  double power = 0, sum = 0;
+  for (std::uint32_t l = 0; l < lights.size(); ++l) power += lights[l].flux().max();
+  EXPECT_NEAR(power, 24 + 10 * scene.area(scene::SurfaceId{12}), 1e-12);
+  EXPECT_NEAR(lights.flux()[1], 10 * scene.area(scene::SurfaceId{12}), 1e-12);
+  const Place at{Vec3(1, 1, 3), Vec3::Zero()};
+  for (std::uint32_t l = 0; l < lights.size(); ++l) {
+    EXPECT_NEAR(lights.probability(l, at), lights[l].flux().max() / power, 1e-14);
+    sum += lights.probability(l, at);
+  }
+  EXPECT_NEAR(sum, 1, 1e-14);
+  EXPECT_EQ(lights.largest_find(), colour(2, 10));
+}
+
+/// Lights of all kinds with powers 1 to 1e6 in a cube, and some beyond.
+std::vector<std::unique_ptr<Light>> many_lights(int n, double scale) {
+  std::vector<std::unique_ptr<Light>> lights;
+  core::RandomNumbers numbers(3, 0, 0);
+  for (int k = 0; k < n; ++k) {
+    const Vec3 x = scale * Vec3(10 * test::random_point(numbers));
+    const Vec3 way = test::cosine_about(-Vec3::UnitZ(), numbers);
+    const Spectrum power = grey(std::pow(10, 6 * numbers.next()));
+    switch (k % 4) {
+      case 0:
+        lights.push_back(std::make_unique<PointSource>(scene::PointLight{"p", x, power}));
+        break;
+      case 1:
+        lights.push_back(std::make_unique<Spot>(scene::SpotLight{"s", x, way, power, .95, .8}));
+        break;
+      case 2: {
+        const Vec3 u = scale * .2 * way.cross(Vec3::UnitX()).normalized(), v = way.cross(u);
+        lights.push_back(std::make_unique<RectangleLight>(x, u, v, way, power));
+        break;
+      }
+      default:
+        lights.push_back(std::make_unique<BallLight>(scene::SphereLight{"b", x, .05 * scale, power}));
+    }
+  }
+  return lights;
+}
+
+// At a hundred places: probabilities add up to 1, are those that picks tell, bit by bit, and with which picks come; and
+// no light that gives anything there is never picked.
+TEST(LightTree, picks_as_it_says_and_forgets_no_light) {
+  for (const double scale : {1., 1e-6, 1e6}) {
+    const auto lights = many_lights(10'000, scale);
+    std::vector<LightExtent> extents;
+    for (const auto& light : lights) extents.push_back(light->extent());
+    const LightTree tree(extents);
+    EXPECT_LE(tree.depth(), 60);
+    core::RandomNumbers places(4, 0, 0);
+    for (int p = 0; p < (scale == 1 ? 100 : 5); ++p) {
+      const Vec3 x = scale * Vec3(12 * test::random_point(places) - Vec3(1, 1, 1));
+      const Place at{x, p % 5 == 0 ? Vec3(Vec3::Zero()) : test::cosine_about(Vec3::UnitZ(), places)};
+      std::vector<double> expected(lights.size()), counts(lights.size());
+      double sum = 0;
+      constexpr int n = 20'000;
+      for (std::uint32_t l = 0; l < lights.size(); ++l) {
+        const double probability = tree.probability(l, at);
+        sum += probability;
+        expected[l] = n * probability;
+        if (probability > 0) continue;
+        for (std::uint64_t k = 0; k < 8; ++k) {
+          const auto u = numbers_of(200, k);
+          const auto s = lights[l]->sample_arriving(at, u[0], u[1]);
+          EXPECT_TRUE(!s || s->light.is_zero() || (!at.normal.isZero() && s->way.dot(at.normal) <= 0));
+        }
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+      for (std::uint64_t k = 0; k < n; ++k) {
+        const auto picked = tree.pick(at, numbers_of(static_cast<std::uint32_t>(300 + p), k)[0]);
+        ++counts[picked.light];
+        ASSERT_EQ(picked.probability, tree.probability(picked.light, at));
+      }
+      test::expect_as_expected(counts, expected, alpha / 128, "place " + std::to_string(p));
+    }
+  }
+}
+
+// With one light on at a time, what picks find over their probability is on average what the light gives directly.
+TEST(LightTree, finds_each_light_as_bright_as_it_is) {
+  const auto lights = many_lights(400, 1);
+  std::vector<LightExtent> extents;
+  for (const auto& light : lights) extents.push_back(light->extent());
+  const LightTree tree(extents);
+  const Place at{Vec3(5, 4, -.5), Vec3::UnitZ()};
+  constexpr int n = 400'000;
+  std::vector<double> found(lights.size());
+  for (std::uint64_t k = 0; k < n; ++k) {
+    const auto picked = tree.pick(at, numbers_of(400, k)[0]);
+    found[picked.light] += 1 / picked.probability / n;
+  }
+  for (std::uint32_t l = 0; l < lights.size(); ++l) {
+    const double p = tree.probability(l, at);
+    if (n * p < 25) continue;  // too rare to be normal
+    EXPECT_NEAR(found[l], 1, 5.2 * std::sqrt((1 - p) / (n * p))) << l;
+  }
+}
+
+}  // namespace
+}  // namespace interflect::montecarlo
