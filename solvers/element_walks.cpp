@@ -22,11 +22,6 @@ ElementWalks::Wave::Wave(std::span<const WalkStart> starts, const WalkNumbers& n
   numbers_.sequence.points_of(walk_, numbers_.first, first_);
 }
 
-void ElementWalks::Wave::keep(std::size_t from, std::size_t to, Index arrived) {
-  start[to] = start[from], at[to] = arrived, walk_[to] = walk_[from];
-  if (!point.empty()) point[to] = point[from];
-}
-
 void ElementWalks::Wave::shrink(std::size_t size) {
   if (size < walk_.size()) used_ = numbers_.first;
   const auto cut = [size](auto& of_each) {
@@ -71,14 +66,10 @@ void ElementWalks::prefer_ways(const ColumnMatrix& worth) {
       worth_.col(c) /= births_.sizes()(c) * static_cast<double>((births_.sizes().array() > 0).count());
 }
 
-/// @param carried, reflected  sums over the columns, without signs
-double ElementWalks::going_on(Index at, double carried, double reflected, const double* by_column) const {
-  if (!(carried > 0)) return 0;
-  const double by_rho = reflected / carried;
-  if (worth_.size() == 0) return by_rho;
+double ElementWalks::going_on(Index at, double by_rho, const double* by_column) const {
   double worth = 0;
   for (Index c = 0; c < worth_.cols(); ++c) worth += std::abs(by_column[c]) * worth_(at, c);
-  return std::clamp(worth, .1 * by_rho, 1.0);
+  return by_rho > 0 ? std::clamp(worth, .1 * by_rho, 1.0) : 0;
 }
 
 template <class Step, class Hit>
@@ -103,7 +94,8 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
         reflected[static_cast<std::size_t>(c)] = value;
         all += std::abs(carried[c]), left += std::abs(value);
       }
-      const double on = going_on(at, all, left, reflected.data());
+      const double by_rho = all > 0 ? left / all : 0;
+      const double on = worth_.size() == 0 ? by_rho : going_on(at, by_rho, reflected.data());
       const bool survives = wave.on[k] < on;
       if (score_ == Score::collision)
         hit(wave.start[k], at, carried, reflected.data(), 1);
@@ -154,7 +146,7 @@ ElementWalks::Wave ElementWalks::births(std::span<const WalkStart> starts, const
   for (std::size_t k = 0; k < wave.size(); ++k) {
     const auto [source, probability] = births_(wave.ways[k]);
     wave.at[k] = source;
-    wave.carried.row(static_cast<Index>(k)) = system_.e.row(source) * (area(source) / probability);
+    wave.carried.row(static_cast<Index>(k)) = system_.e.row(source) / (place(source)[system_.e.cols()] * probability);
   }
   return wave;
 }

@@ -77,7 +77,11 @@ class ElementWalks {
   struct Wave {
     Wave(std::span<const WalkStart> starts, const WalkNumbers& numbers, Index columns);
     std::size_t size() const { return at.size(); }
-    void keep(std::size_t from, std::size_t to, Index arrived);  ///< but for what it carries
+    /// But for what it carries.
+    void keep(std::size_t from, std::size_t to, Index arrived) {
+      start[to] = start[from], at[to] = arrived, walk_[to] = walk_[from];
+      if (!point.empty()) point[to] = point[from];
+    }
     void shrink(std::size_t size);
     /// The next numbers of each, `count` a walk.
     void draw(std::size_t count, std::vector<double>& u);
@@ -97,7 +101,9 @@ class ElementWalks {
 
   double area(Index a) const { return system_.K.gram()[static_cast<std::size_t>(a)]; }
   auto rho(Index a) const { return system_.R.reflectance().row(a); }
-  double going_on(Index at, double carried, double reflected, const double* by_column) const;
+  /// @param by_rho     what of all that is carried is reflected
+  /// @param by_column  what is reflected of each
+  double going_on(Index at, double by_rho, const double* by_column) const;
 
   Wave births(std::span<const WalkStart> starts, const WalkNumbers& numbers) const;
   void step_between_elements(Wave& wave, std::span<Index> arrived) const;
