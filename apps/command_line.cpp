@@ -117,12 +117,14 @@ void add_trace(CLI::App& app, Command& chosen) {
       "--resume", options->resume,
       "Go on from the checkpoint that an earlier run left beside its picture, every minute and when it was "
       "stopped");
-  command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
-      ->check(named("a folder"));
+  CLI::Option* estimates =
+      command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
+          ->check(named("a folder"));
   command
       ->add_option("--integrator", options->integrator,
                    "How those estimates are found: by paths from what is measured, or from lights")
       ->check(CLI::IsMember(montecarlo::integrator_names()))
+      ->needs(estimates)
       ->capture_default_str();
   add_accuracy(*command, options->accuracy, "those estimates");
   add_intersector(*command, options->intersector, "Ray caster");

@@ -2,7 +2,9 @@
 // the iterated solution of quadratic elements; and how long each order takes to 1 %.  Asked for: p = 1 in a fifth of p
 // = 0's time.
 //
-//   bench_error_against_time [SCENE [ERROR [THREADS]]]      default: data/scenes/office.json 0.01 2
+//   bench_error_against_time [SCENE [ERROR [THREADS [RAYS [BYTES]]]]]   default: data/scenes/office.json 0.01 2 16 8e9
+//
+// RAYS: of a pair that something may hide.  BYTES: memory that solves may take.
 
 #include <chrono>
 #include <cmath>
@@ -81,12 +83,18 @@ double error_of(const scene::Scene& scene, const fem::RadiositySolution& s, cons
   return std::sqrt(difference / whole);
 }
 
+struct Resources {
+  int rays;
+  double bytes;
+};
+
 /// Visibility by rays, as by default, for every order.
-fem::RadiositySettings settings_of(int order, double element_size) {
+fem::RadiositySettings settings_of(const Resources& resources, int order, double element_size) {
   fem::RadiositySettings settings;
   settings.order = order;
   settings.element_size = element_size;
-  settings.max_memory = 8e9;
+  settings.visibility_rays = resources.rays;
+  settings.max_memory = resources.bytes;
   return settings;
 }
 
@@ -105,13 +113,14 @@ bool fits(const scene::Scene& scene, const fem::RadiositySettings& settings, con
 
 /// Smaller and smaller elements, until the error asked for is passed or there is no memory for more; the time for it by
 /// a power law through the last two: between them, or beyond, which is said.
-double time_to(double wanted, int order, double first_size, double ratio, const scene::Scene& scene,
+double time_to(double wanted, int order, const Resources& resources, double first_size, const scene::Scene& scene,
                const std::vector<Sample>& samples, Run& run) {
+  constexpr double ratio = 0.7;
   std::vector<Trial> trials;
   for (double size = first_size; trials.size() < 8; size *= ratio) {
-    if (!fits(scene, settings_of(order, size), run)) break;
+    if (!fits(scene, settings_of(resources, order, size), run)) break;
     const auto start = std::chrono::steady_clock::now();
-    const fem::RadiositySolution s = fem::solve_radiosity(scene, settings_of(order, size), run);
+    const fem::RadiositySolution s = fem::solve_radiosity(scene, settings_of(resources, order, size), run);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     trials.push_back({seconds, error_of(scene, s, samples)});
     std::printf("p = %d  %7td elements of %.3f m  %8.2f s  %6.2f %%\n", order, s.mesh.size(), size, seconds,
@@ -135,17 +144,18 @@ int main(int argc, char** argv) try {
   const std::string file = argc > 1 ? argv[1] : INTERFLECT_SOURCE_DIR "/data/scenes/office.json";
   const double wanted = argc > 2 ? std::atof(argv[2]) : 0.01;
   core::LocalRun run(1, argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 2);
+  const Resources resources{argc > 4 ? std::atoi(argv[4]) : 16, argc > 5 ? std::atof(argv[5]) : 8e9};
   const scene::Scene scene = scene::read_scene(file);
   const double coarse = mesh::edge_for(scene, 60);
-  fem::RadiositySettings exact = settings_of(2, coarse / 8);
+  fem::RadiositySettings exact = settings_of(resources, 2, coarse / 8);
   exact.form_factors = "analytic";
   const fem::RadiositySolution reference = fem::solve_radiosity(scene, exact, run.get());
   std::vector<Sample> samples = samples_on(scene, reference.mesh, 3000);
   set_reference(scene, reference, samples, run.get());
   std::printf("reference: p = 2, %td elements; %zu points\n", reference.mesh.size(), samples.size());
-  const double constants = time_to(wanted, 0, coarse / 8, 0.7, scene, samples, run.get()),
-               linear = time_to(wanted, 1, coarse / 8, 0.7, scene, samples, run.get()),
-               quadratic = time_to(wanted, 2, coarse / 8, 0.7, scene, samples, run.get());
+  const double constants = time_to(wanted, 0, resources, coarse / 8, scene, samples, run.get()),
+               linear = time_to(wanted, 1, resources, coarse / 8, scene, samples, run.get()),
+               quadratic = time_to(wanted, 2, resources, coarse / 8, scene, samples, run.get());
   std::printf(
       "%g %% L2 of H: p = 0 in %.1f s, p = 1 in %.1f s (%.3f of p = 0; asked for 0.2), p = 2 in %.1f s (%.3f)\n",
       100 * wanted, constants, linear, linear / constants, quadratic, quadratic / constants);

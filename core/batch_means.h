@@ -26,11 +26,8 @@ class BatchMeans {
   double half_width(double confidence = 0.95) const;
 
  private:
-  ScalarMoments over_batches() const {
-    ScalarMoments means;
-    for (const ScalarMoments& each : of_) means.add(each.mean());
-    return means;
-  }
+  /// @throws PreconditionError  where batches differ in size
+  ScalarMoments over_batches() const;
 
   std::vector<ScalarMoments> of_;
 };

@@ -25,8 +25,8 @@ class MomentsOf {
   std::uint64_t count() const { return count_; }
   const T& mean() const { return mean_; }
   const T& squared_deviations() const { return squares_; }  ///< M2
-  T variance() const;        ///< of one sample, unbiased; infinite below two samples
-  T standard_error() const;  ///< of the mean; infinite below two samples
+  T variance() const;                                       ///< of one sample, unbiased; infinite below two samples
+  T standard_error() const;                                 ///< of the mean; infinite below two samples
 
  private:
   std::uint64_t count_ = 0;

@@ -10,12 +10,13 @@ using solvers::ColumnMatrix;
 
 void require_diffuse(const scene::Scene& scene) {
   if (!scene.lights.empty())
-    throw core::InputError(scene.lights.first_name(), "radiosity knows lights that are surfaces alone, trace this too");
+    throw core::InputError(scene.lights.first_name(),
+                           "radiosity knows lights that are surfaces; interflect trace does this");
   for (const scene::SurfaceId id : scene.surface_ids())
     if (const scene::Material& material = scene.material(id); !material.is_diffuse())
       throw core::InputError("'" + scene.surface(id).name + "'",
                              "its material '" + material.name + "' is " + material.kind() +
-                                 ": radiosity knows what is diffuse and opaque, trace this too");
+                                 ": radiosity knows what is diffuse and opaque; interflect trace does this");
 }
 
 ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <queue>
 
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 
 namespace interflect::mesh {
@@ -36,28 +36,24 @@ std::vector<std::uint32_t> welded(std::span<const scene::Facet> facets) {
 /// side. Sheets that touch in a point or along an edge of more than two facets keep vertices of their own.
 class Vertices {
  public:
-  explicit Vertices(std::span<const scene::Facet> facets) : parent_(3 * facets.size()) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  explicit Vertices(std::span<const scene::Facet> facets) : sets_(3 * facets.size()) {
     const std::vector<std::uint32_t> position = welded(facets);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;  // -> corners that they start at
-    for (std::size_t corner = 0; corner < position.size(); ++corner)
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Corners> edges;  // -> corners that they start at
+    for (std::uint32_t corner = 0; corner < position.size(); ++corner)
       edges[std::minmax({position[corner], position[next(corner)]})].push_back(corner);
     for (const auto& [ends, starts] : edges)
       if (starts.size() == 2 && position[starts[0]] != position[starts[1]]) {
-        join(starts[0], next(starts[1]));
-        join(starts[1], next(starts[0]));
+        sets_.join(starts[0], next(starts[1]));
+        sets_.join(starts[1], next(starts[0]));
       }
   }
-  std::size_t of_corner(std::size_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
+  std::size_t of_corner(std::size_t corner) { return sets_.of(static_cast<std::uint32_t>(corner)); }
 
  private:
-  static std::size_t next(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-  void join(std::size_t a, std::size_t b) { parent_[of_corner(std::max(a, b))] = of_corner(std::min(a, b)); }
+  using Corners = std::vector<std::uint32_t>;
+  static std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-  std::vector<std::size_t> parent_;
+  core::DisjointSets sets_;
 };
 
 /// What OpenMesh cannot hold: an edge with facets on both sides already, a vertex without a gap.

@@ -7,28 +7,21 @@
 namespace interflect::montecarlo {
 namespace {
 
-std::unique_ptr<measure::Method> path(const IntegratorSettings& settings) {
-  PathTracerSettings of;
-  of.samples = settings.samples;
-  of.target = settings.target;
-  of.intersector = settings.intersector;
-  return std::make_unique<PathTracer>(of);
-}
-
-std::unique_ptr<measure::Method> light(const IntegratorSettings& settings) {
-  LightTracerSettings of;
-  of.paths = settings.samples;
-  of.target = settings.target;
-  of.intersector = settings.intersector;
-  return std::make_unique<LightTracer>(of);
+template <class Integrator, class Settings>
+std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
+  Settings settings;
+  settings.samples = asked.samples;
+  settings.target = asked.target;
+  settings.intersector = asked.intersector;
+  return std::make_unique<Integrator>(std::move(settings));
 }
 
 }  // namespace
 
 const std::vector<IntegratorEntry>& known_integrators() {
   static const std::vector<IntegratorEntry> all{
-      {"path", "paths from what is measured, lights found by both ways", path},
-      {"light", "paths from lights, all measurements by the same ones", light},
+      {"path", "paths from what is measured, lights found by both ways", make<PathTracer, PathTracerSettings>},
+      {"light", "paths from lights, all measurements by the same ones", make<LightTracer, LightTracerSettings>},
   };
   return all;
 }

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "core/format.h"
+#include "core/log.h"
+#include "montecarlo/measurable.h"
 #include "montecarlo/measured_patches.h"
+#include "montecarlo/roulette.h"
 #include "montecarlo/sampling.h"
 #include "montecarlo/sight.h"
 #include "montecarlo/splat_targets.h"
@@ -14,9 +18,9 @@
 namespace interflect::montecarlo {
 namespace {
 
-constexpr std::uint64_t paths_per_block = 256, blocks_per_wave = 1024, first_round = 1u << 14;
+constexpr std::uint64_t paths_per_block = 256, blocks_per_wave = 1024;
+constexpr std::uint64_t first_pilot = 1u << 14, largest_light_pilot = 1u << 20;
 constexpr std::uint64_t fewest_scores = 25;  ///< below which an interval is too short by far
-constexpr double likeliest = 0.999;          ///< to go on
 
 /// Dimensions: the light and how its light leaves, then what is joined with that; then a vertex after the other.
 constexpr std::uint32_t emission_block = 0, first_vertex_block = 6, blocks_per_vertex = 6;
@@ -35,6 +39,7 @@ class Deposits {
  public:
   void clear() { of_.clear(); }
   void add(std::uint32_t measurement, const Spectrum& value) {
+    if (value.is_zero()) return;  // what is hidden is no find
     for (auto& [m, sum] : of_)
       if (m == measurement) {
         sum += value;
@@ -73,7 +78,7 @@ class LightPaths {
       throw core::InputError("light tracing", "points and pixels do not see what '" + scene.surface(*mirror).name +
                                                   "' shows: path tracing does");
     if (!targets_.films().empty() && lights_.first_infinite() < lights_.size())
-      throw core::InputError("light tracing", "pixels do not see the sky: path tracing does");
+      throw core::InputError("light tracing", "pixels do not see the sun or the sky themselves: path tracing does");
   }
 
   /// Light that has not met a surface yet.
@@ -164,9 +169,10 @@ void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
   if (!(at_first > 0)) return;
   const bool from_afar = lights_[light].is_infinite();
   raycast::Ray ray{emission.position, emission.way, from_afar ? Vec3(Vec3::Zero()) : emission.normal};
+  std::optional<std::uint32_t> leaves = light;
   std::vector<MeasuredPatches::Share> shares;
   for (std::uint32_t block = first_vertex_block;; block += blocks_per_vertex) {
-    const auto hit = sight_.met(ray).surface;
+    const auto hit = sight_.met(ray, std::exchange(leaves, std::nullopt)).surface;
     if (!hit) return;
     patches_.at(*hit, shares);
     for (const auto& [measurement, per_flux] : shares) deposits.add(measurement, flux * per_flux);
@@ -188,7 +194,7 @@ void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
     const auto on = bsdf->sample(from, {lobe, a, b}, Walk::from_light);
     if (!on) return;
     flux *= on->weight;
-    const double survives = std::min(likeliest, flux.max() / at_first);
+    const double survives = going_on(flux.max() / at_first);
     if (!(survival < survives)) return;
     flux /= survives;
     ray = {hit->position, frame.to_world(on->way), on->way.z() >= 0 ? frame.n : Vec3(-frame.n)};
@@ -229,87 +235,153 @@ Tally of_none(std::uint64_t count) {
   return tally;
 }
 
-struct Rounds {
-  const LightPaths& paths;
-  const scene::Scene& scene;
-  std::vector<Tally> scored;  ///< by measurement
-  std::uint64_t done = 0;
+/// The same paths for all measurements, from the first on.
+class Tracing {
+ public:
+  Tracing(const LightPaths& paths, const scene::Scene& scene, std::span<const measure::Measurement> asked,
+          std::uint64_t seed)
+      : paths_(paths), scene_(scene), asked_(asked), seed_(seed), scored_(asked.size()) {}
 
-  /// Until so many paths were traced, or the run is stopped.
-  void trace(std::uint64_t until, std::uint64_t seed, Run& run) {
-    core::Progress::Stage stage(run.progress, "light tracing", until - done);
-    while (done < until && !run.stop.stop_requested()) {
-      const std::uint64_t some = std::min(until - done, paths_per_block * blocks_per_wave);
+  std::uint64_t paths() const { return done_; }
+  std::uint64_t scores(std::size_t measurement) const { return scored_[measurement].moments.count(); }
+  Tally tally(std::size_t measurement) const {
+    Tally all = scored_[measurement];
+    all.merge(of_none(done_ - scores(measurement)));
+    return all;
+  }
+
+  /// So many more, or fewer where the run is stopped.
+  void trace(std::uint64_t count, const char* stage_name, Run& run) {
+    const std::uint64_t until = done_ + count;
+    core::Progress::Stage stage(run.progress, stage_name, count);
+    while (done_ < until && !run.stop.stop_requested()) {
+      const std::uint64_t some = std::min(until - done_, paths_per_block * blocks_per_wave);
       const auto blocks = static_cast<Index>((some + paths_per_block - 1) / paths_per_block);
       std::vector<Scores> of(static_cast<std::size_t>(blocks));
       run.threads.for_blocks(blocks, 1, [&](Index b, Index) {
-        const std::uint64_t first = done + static_cast<std::uint64_t>(b) * paths_per_block;
-        of[static_cast<std::size_t>(b)] =
-            scores_of_block(paths, scene, seed, first, std::min(first + paths_per_block, done + some));
-        stage.advance(paths_per_block);
+        const std::uint64_t first = done_ + static_cast<std::uint64_t>(b) * paths_per_block,
+                            end = std::min(first + paths_per_block, done_ + some);
+        of[static_cast<std::size_t>(b)] = scores_of_block(paths_, scene_, seed_, first, end);
+        stage.advance(end - first);
       });
       for (const Scores& block : of)
-        for (const auto& [measurement, tally] : block.of) scored[measurement].merge(tally);
-      done += some;
+        for (const auto& [measurement, tally] : block.of) scored_[measurement].merge(tally);
+      done_ += some;
     }
   }
-  Tally tally(std::size_t measurement) const {
-    Tally all = scored[measurement];
-    all.merge(of_none(done - all.moments.count()));
-    return all;
+
+  /// What a path adds at most; of points and pixels, which have no such bound, what light adds at once.
+  Spectrum largest_score(std::size_t measurement) const {
+    const measure::Measurement& asked = asked_[measurement];
+    if (const auto* patch = std::get_if<measure::PatchIrradiance>(&asked))
+      return paths_.lights().flux() / patch->patch.area;
+    if (std::holds_alternative<measure::Flux>(asked)) return paths_.lights().flux();
+    return paths_.lights().largest_find() * scale_of(asked);
   }
+  /// What few paths score, or none, may be more by three of the largest scores (the rule of three).
+  Spectrum standard_error(std::size_t measurement, const Tally& tally) const {
+    const Spectrum known = tally.moments.standard_error();
+    if (scores(measurement) >= fewest_scores) return known;
+    return max(known, largest_score(measurement) * (3 / static_cast<double>(done_)));
+  }
+
+  /// Paths until it is as well known as is asked for, and half as many more for the noise of that.
+  double needed(std::size_t measurement, const SamplingTarget& target) const {
+    const Tally of = tally(measurement);
+    const double wanted = target.standard_error(of.weighed.mean(), scale_of(asked_[measurement]));
+    if (scores(measurement) < fewest_scores) return 3 * scene_.weigh(largest_score(measurement)) / wanted;
+    return 1.5 * of.weighed.variance() / (wanted * wanted);
+  }
+
+ private:
+  const LightPaths& paths_;
+  const scene::Scene& scene_;
+  std::span<const measure::Measurement> asked_;
+  std::uint64_t seed_;
+  std::vector<Tally> scored_;  ///< by measurement
+  std::uint64_t done_ = 0;
 };
 
-/// What an irradiance of 1 everywhere would measure.
-double scale_of(const measure::Measurement& asked) {
-  if (const auto* flux = std::get_if<measure::Flux>(&asked)) {
-    double area = 0;
-    for (const scene::SurfacePatch& patch : flux->through) area += patch.area;
-    return area;
-  }
-  return std::holds_alternative<measure::PixelRadiance>(asked) ? inv_pi : 1;
+/// Which measurements are answered, and not one of them again.
+std::vector<std::size_t> answered(std::size_t asked, const SplatTargets& targets) {
+  std::vector<bool> is_again(asked, false);
+  for (const auto& [again, as] : targets.again()) is_again[again] = true;
+  std::vector<std::size_t> answered;
+  for (std::size_t m = 0; m < asked; ++m)
+    if (!is_again[m]) answered.push_back(m);
+  return answered;
 }
 
-bool are_met(const Rounds& rounds, std::span<const measure::Measurement> asked, const SamplingTarget& target) {
-  for (std::size_t m = 0; m < asked.size(); ++m) {
-    if (rounds.scored[m].moments.count() < fewest_scores) return false;
-    const Tally tally = rounds.tally(m);
-    if (tally.weighed.standard_error() > target.standard_error(tally.weighed.mean(), scale_of(asked[m]))) return false;
-  }
-  return true;
+/// How many paths all of them need, by pilots that are thrown away: so the answer stays unbiased [Kirk, Arvo 1991].
+std::uint64_t planned(const LightPaths& paths, const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                      std::span<const std::size_t> of, const SamplingTarget& target, Run& run) {
+  const auto by_pilot = [&](std::uint64_t size, const char* purpose) {
+    Tracing pilot(paths, scene, asked, core::derived_seed(run.seed, purpose));
+    pilot.trace(size, "light tracing pilot", run);
+    run.throw_if_stopped("light tracing");
+    double most = static_cast<double>(target.fewest);
+    for (const std::size_t m : of) most = std::max(most, pilot.needed(m, target));  // not if it is no number
+    return std::min(most, static_cast<double>(target.most));
+  };
+  double n = by_pilot(first_pilot, "light tracer pilot");
+  if (const auto more = static_cast<std::uint64_t>(std::min(n / 8, static_cast<double>(largest_light_pilot)));
+      more > first_pilot)
+    n = by_pilot(more, "light tracer second pilot");
+  return static_cast<std::uint64_t>(std::ceil(n));
+}
+
+/// One line where paths ended before all measurements were as well known as was asked for.
+void warn_of_cap(const Tracing& tracing, const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                 std::span<const std::size_t> of, const SamplingTarget& target) {
+  const auto falls_short = [&](std::size_t m) {
+    const Tally tally = tracing.tally(m);
+    return scene.weigh(tracing.standard_error(m, tally)) >
+           target.standard_error(tally.weighed.mean(), scale_of(asked[m]));
+  };
+  if (const auto count = std::ranges::count_if(of, falls_short); count > 0)
+    core::log::warning(core::format("light tracing: %td of %zu measurements stopped short of %.2g %% at %llu paths",
+                                    count, asked.size(), 100 * target.relative,
+                                    static_cast<unsigned long long>(tracing.paths())));
+}
+
+void require_valid(const LightTracerSettings& settings) {
+  if (settings.samples == 0 && !(settings.target > 0))
+    throw core::InputError("light tracing", "a target above 0 expected");
+  if (!(settings.target_floor >= 0)) throw core::InputError("light tracing", "a target floor of at least 0 expected");
+  if (settings.samples == 1 || settings.max_samples < 2)
+    throw core::InputError("light tracing", "at least 2 paths expected: one has no standard error");
 }
 
 }  // namespace
 
 std::vector<Estimate> LightTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                           Run& run) const {
-  if (settings_.paths == 1 || settings_.max_paths < 2)
-    throw core::InputError("light tracing", "at least 2 paths expected: one has no standard error");
+  require_valid(settings_);
+  for (const measure::Measurement& each : asked) require_measurable(scene, each);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const LightPaths paths(scene, asked, *caster);
-  if (paths.dark())
-    return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  std::vector<Estimate> estimates(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  if (paths.dark()) return estimates;
+  const std::vector<std::size_t> of = answered(asked.size(), paths.targets());
   const SamplingTarget target{
       settings_.target, settings_.target * settings_.target_floor * mean_irradiance_scale(scene, paths.lights().flux()),
-      first_round, settings_.max_paths};
+      std::min(first_pilot, settings_.max_samples), settings_.max_samples};
+  const std::uint64_t count = settings_.samples > 0 ? settings_.samples : planned(paths, scene, asked, of, target, run);
   const std::uint64_t seed = core::derived_seed(run.seed, "light tracer");
-  Rounds rounds{paths, scene, std::vector<Tally>(asked.size())};
-  if (settings_.paths > 0) {
-    rounds.trace(settings_.paths, seed, run);
-  } else {
-    for (std::uint64_t until = first_round; until <= settings_.max_paths && !run.stop.stop_requested(); until *= 2) {
-      rounds.trace(until, seed, run);
-      if (are_met(rounds, asked, target)) break;
-    }
-  }
-  if (rounds.done < 2) run.throw_if_stopped("light tracing");
-  std::vector<Estimate> estimates;
-  const Spectrum flux = paths.lights().flux();
-  for (std::size_t m = 0; m < asked.size(); ++m) {
-    const auto* patch = std::get_if<measure::PatchIrradiance>(&asked[m]);
-    estimates.push_back(rounds.tally(m).estimate(patch ? flux / patch->patch.area : flux));
+  Tracing tracing(paths, scene, asked, seed);
+  tracing.trace(count, "light tracing", run);
+  if (tracing.paths() < 2) run.throw_if_stopped("light tracing");
+  for (const std::size_t m : of) {
+    const Tally tally = tracing.tally(m);
+    warn_of_bugs(tally, "light tracing", m, seed);
+    estimates[m] = tally.estimate(tracing.largest_score(m));
+    estimates[m].standard_error = tracing.standard_error(m, tally);
+    if (tracing.scores(m) < fewest_scores)
+      estimates[m].weighed_standard_error = scene.weigh(estimates[m].standard_error);
   }
   for (const auto& [again, as] : paths.targets().again()) estimates[again] = estimates[as];
+  if (settings_.samples == 0 && count == target.most && !run.stop.stop_requested())
+    warn_of_cap(tracing, scene, asked, of, target);
   return estimates;
 }
 

@@ -9,10 +9,10 @@
 namespace interflect::montecarlo {
 
 struct LightTracerSettings {
-  std::uint64_t paths = 0;    ///< in all; 0: as many as `target` asks for
+  std::uint64_t samples = 0;  ///< paths in all; 0: as many as `target` asks for
   double target = 0.01;       ///< relative standard error of every measurement's weighted value
   double target_floor = 0.1;  ///< ... or relative to this part of the scene's mean irradiance
-  std::uint64_t max_paths = std::uint64_t{1} << 28;
+  std::uint64_t max_samples = std::uint64_t{1} << 28;
   std::string intersector = "embree";
 };
 
@@ -29,8 +29,9 @@ struct LightTracerSettings {
 ///
 /// A sample of a measurement is a whole path, with all that it adds to that measurement: paths that add nothing count.
 /// Estimates of different measurements share paths: a sum of their variances is not that of their sum, so what is to be
-/// known of many together is to be asked as one.  Rare hits make poor errors: of fewer than 25 paths that scored, none
-/// is claimed to be converged, and a target is not met.
+/// known of many together is to be asked as one.  Of fewer than 25 paths that scored, the standard error is three of
+/// the largest scores over the number of paths at least (rule of three; of points and pixels, of which no score is the
+/// largest, by what light adds at once).  With a target, pilots that are thrown away say how many paths are needed.
 /// Finds all paths to patches.  To points and pixels it does not find what mirrors, panes and smooth glass show there
 /// (no vertex can be joined through them); it refuses to answer rather than leave them out.
 /// Sample k is keyed by (seed, k): same bits for any number of threads.

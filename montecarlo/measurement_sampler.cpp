@@ -1,7 +1,7 @@
 #include "montecarlo/measurement_sampler.h"
 
-#include "core/error.h"
-#include "core/format.h"
+#include "core/overloaded.h"
+#include "montecarlo/measurable.h"
 #include "montecarlo/warp.h"
 
 namespace interflect::montecarlo {
@@ -11,13 +11,6 @@ namespace {
 // Dimensions: the place owns the first two blocks, whatever kind it is; the path owns the rest.
 constexpr std::uint32_t place_block = 0, pick_block = 1, lens_block = 1, path_block = 2;
 constexpr std::uint32_t second_path_block = 1u << 30;  // no path comes that far
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce aggregates
 
 const ReconstructionFilter& box() {
   static const std::unique_ptr<ReconstructionFilter> filter = make_filter("box");
@@ -46,42 +39,31 @@ Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& fil
   return (1 + negative) * found - negative * radiance(filter.sample_negative(u, v), second_path_block);
 }
 
-MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure::Measurement& asked) {
-  const auto patch = [&](const measure::PatchIrradiance& m) { set_regions({&m.patch, 1}); };
-  const auto flux = [&](const measure::Flux& m) {
-    set_regions(m.through);
-    scale_ = pick_.total();
-  };
-  const auto point = [&](const measure::PointIrradiance& m) {
-    if (!(std::abs(m.normal.norm() - 1) < 1e-9)) throw core::InputError("point irradiance", "a unit normal expected");
-    kind_ = Kind::point;
-    point_ = {m.position, m.normal};
-  };
-  const auto pixel = [&](const measure::PixelRadiance& m) {
-    if (m.camera.value >= scene.cameras.size())
-      throw core::InputError("pixel radiance", "a camera of the scene expected");
-    const scene::Camera& camera = scene.camera(m.camera);
-    scene::require_valid(camera);
-    if (m.x < 0 || m.y < 0 || m.x >= camera.width || m.y >= camera.height)
-      throw core::InputError(core::format("pixel (%d, %d)", m.x, m.y),
-                             "a pixel of camera '" + camera.name + "' expected");
-    film_ = std::make_shared<const scene::FilmMap>(camera);
-    kind_ = Kind::pixel;
-    scale_ = inv_pi;
-    pixel_ = {m.x, m.y};
-  };
-  std::visit(Overloaded{patch, point, flux, pixel}, asked);
+MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure::Measurement& asked)
+    : scale_(scale_of(asked)) {
+  require_measurable(scene, asked);
+  std::visit(core::Overloaded{[&](const measure::PatchIrradiance& m) {
+                                set_regions({&m.patch, 1});
+                              },
+                              [&](const measure::Flux& m) { set_regions(m.through); },
+                              [&](const measure::PointIrradiance& m) {
+                                kind_ = Kind::point;
+                                point_ = {m.position, m.normal};
+                              },
+                              [&](const measure::PixelRadiance& m) {
+                                film_ = std::make_shared<const scene::FilmMap>(scene.camera(m.camera));
+                                kind_ = Kind::pixel;
+                                pixel_ = {m.x, m.y};
+                              }},
+             asked);
 }
 
 void MeasurementSampler::set_regions(std::span<const scene::SurfacePatch> patches) {
   std::vector<double> areas;
   for (const scene::SurfacePatch& patch : patches) {
-    if (!(patch.area > 0) || patch.corners < 3 || patch.corners > 4)
-      throw core::InputError("measured patch", "a triangle or quad with an area expected");
     regions_.push_back({patch, patch.normal()});
     areas.push_back(patch.area);
   }
-  if (areas.empty()) throw core::InputError("measured flux", "at least one patch expected");
   pick_ = AliasTable(areas);
 }
 

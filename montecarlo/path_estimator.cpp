@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "montecarlo/roulette.h"
 #include "montecarlo/warp.h"
 
 namespace interflect::montecarlo {
@@ -10,7 +11,6 @@ namespace {
 
 /// Light 1, point on it 2, direction 3, survival 1, and one that is left.
 constexpr std::uint32_t blocks_per_vertex = 4;
-constexpr double likeliest = 0.999;  ///< to go on: what loses nothing would not end
 
 /// The side of a surface that a direction leads to.
 Vec3 normal_towards(const Vec3& front, double z) { return z >= 0 ? front : Vec3(-front); }
@@ -45,7 +45,7 @@ void PathEstimator::follow(Vertex at, Carried& path, core::RandomNumbers& number
     if (!on) return;
     path.throughput *= on->weight;
     path.squeezed *= on->squeezed;
-    const double survives = std::min(likeliest, path.throughput.max() / path.squeezed);
+    const double survives = going_on(path.throughput.max() / path.squeezed);
     if (!(survival < survives)) return;
     path.throughput /= survives;
     drawn.ray = {at.position, at.frame.to_world(on->way), normal_towards(at.frame.n, on->way.z())};

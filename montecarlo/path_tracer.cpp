@@ -35,15 +35,6 @@ SamplingTarget target_of(const PathTracerSettings& settings, const PathEstimator
           std::min(fewest_samples, settings.max_samples), settings.max_samples};
 }
 
-void warn_of_bugs(const Tally& tally, std::size_t measurement, std::uint64_t seed) {
-  if (tally.not_finite > 0)
-    core::log::warning(
-        core::format("path tracer: %llu samples of measurement %zu are not finite and count as zero "
-                     "(first: seed %llu, sample %llu)",
-                     static_cast<unsigned long long>(tally.not_finite), measurement,
-                     static_cast<unsigned long long>(seed), static_cast<unsigned long long>(tally.first_not_finite)));
-}
-
 double weighed_standard_error(const scene::Scene& scene, const Estimate& e) {
   return std::isfinite(e.weighed_standard_error) ? e.weighed_standard_error : scene.weigh(e.standard_error);
 }
@@ -92,7 +83,7 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
   std::vector<Estimate> estimates;
   estimates.reserve(asked.size());
   for (std::size_t m = 0; m < tallies.size(); ++m) {
-    warn_of_bugs(tallies[m], m, seed);
+    warn_of_bugs(tallies[m], "path tracer", m, seed);
     estimates.push_back(tallies[m].estimate(measurements[m].scale() * paths.largest_score()));
   }
   if (settings_.samples == 0) warn_of_cap(scene, target, measurements, estimates);

@@ -19,8 +19,8 @@ struct PathTracerSettings {
   std::string intersector = "embree";
 };
 
-/// Path tracing of diffuse scenes (Kajiya 1986): next-event estimation combined with direction sampling by multiple
-/// importance sampling (balance heuristic, Veach and Guibas 1995), Russian roulette without a depth limit.  Unbiased.
+/// Path tracing (Kajiya 1986): next-event estimation combined with direction sampling by multiple importance sampling
+/// (balance heuristic, Veach and Guibas 1995), Russian roulette without a depth limit.  Unbiased.
 ///
 /// With a target, a pilot of 1024 samples (and a second of n / 8 where it asks for n > 8192) says how many are needed,
 /// at least 4096, and is thrown away (Kirk and Arvo 1991): the answer stays unbiased.  Nearly all measurements reach
@@ -28,7 +28,7 @@ struct PathTracerSettings {
 ///
 /// Standard errors are those of independent paths, of each channel and of the scene's weighted value.  A measurement
 /// whose every sample scored zero while something emits has the standard error 3 w / n instead of 0 (rule of three; w:
-/// twice the largest exitance, in the measurement's unit), so that "nothing found" is never told as "nothing there".  A
+/// PathEstimator::largest_score, in the measurement's unit), so that "nothing found" is never told as "nothing there".  A
 /// scene without emitters is exactly dark: standard error 0, no samples.
 class PathTracer final : public measure::Method {
  public:

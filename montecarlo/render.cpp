@@ -136,6 +136,7 @@ class Painter {
   /// Brings a pixel to `end` samples.
   void expose(std::size_t pixel, std::uint64_t end) {
     const std::uint64_t begin = film_.samples(pixel);
+    if (begin >= end) return;  // of a run that had come further here before it was stopped
     const auto stream = static_cast<std::uint32_t>(pixel);
     if (independent(settings_)) {
       for (std::uint64_t k = begin; k < end; ++k) {

@@ -6,12 +6,13 @@
 
 namespace interflect::montecarlo {
 
-Sight::Met Sight::met(const raycast::Ray& ray) const {
+Sight::Met Sight::met(const raycast::Ray& ray, std::optional<std::uint32_t> leaves) const {
   Met met{caster_.closest(ray), std::nullopt};
   if (lights_.balls().empty()) return met;
   const double before =
       met.surface ? (met.surface->position - ray.origin).norm() : std::numeric_limits<double>::infinity();
-  met.ball = lights_.balls().closest(ray.origin, ray.direction, before);
+  met.ball =
+      lights_.balls().closest(ray.origin, ray.direction, before, leaves ? lights_.ball_of(*leaves) : Balls::none);
   if (met.ball) met.surface.reset();
   return met;
 }
@@ -26,7 +27,8 @@ Spectrum Sight::let_pass(const raycast::Segment& segment, std::optional<std::uin
   const Vec3 way = (segment.to - segment.from).normalized();
   while (caster_.occluded(left)) {
     const auto hit = caster_.closest({left.from, way, left.from_normal});
-    if (!hit) return Spectrum::zero();  // what blocks is met within rounding alone
+    // What blocks may be met within rounding alone, of either end.
+    if (!hit || !((hit->position - left.to).dot(way) < 0)) return Spectrum::zero();
     const Bsdf* bsdf = optics_.bsdf(hit->surface);
     if (bsdf == nullptr || !bsdf->lets_pass()) return Spectrum::zero();
     passes *= bsdf->straight(frame_around(front_normal(*hit)).to_local(-way));

@@ -19,7 +19,8 @@ class Sight {
     std::optional<scene::SurfacePoint> surface;
     std::optional<Balls::Hit> ball;
   };
-  Met met(const raycast::Ray& ray) const;
+  /// @param leaves  the light that the ray starts on, if it is one
+  Met met(const raycast::Ray& ray, std::optional<std::uint32_t> leaves = {}) const;
 
   /// What of light passes between two places: all, nothing, or what panes and nets between them let straight through.
   /// @param of  the light at the segment's end, if it is one

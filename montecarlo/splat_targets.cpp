@@ -3,27 +3,16 @@
 #include <cmath>
 #include <map>
 
-#include "core/error.h"
-#include "core/format.h"
-
 namespace interflect::montecarlo {
 
 SplatTargets::SplatTargets(const scene::Scene& scene, std::span<const measure::Measurement> asked) {
   std::map<std::uint32_t, std::size_t> film_of;  // by camera
   for (std::uint32_t m = 0; m < asked.size(); ++m) {
-    if (const auto* point = std::get_if<measure::PointIrradiance>(&asked[m])) {
-      if (!(std::abs(point->normal.norm() - 1) < 1e-9))
-        throw core::InputError("point irradiance", "a unit normal expected");
+    if (const auto* point = std::get_if<measure::PointIrradiance>(&asked[m]))
       points_.push_back({m, point->position, point->normal});
-    }
     const auto* pixel = std::get_if<measure::PixelRadiance>(&asked[m]);
     if (!pixel) continue;
-    if (pixel->camera.value >= scene.cameras.size())
-      throw core::InputError("pixel radiance", "a camera of the scene expected");
     const scene::Camera& camera = scene.camera(pixel->camera);
-    if (pixel->x < 0 || pixel->y < 0 || pixel->x >= camera.width || pixel->y >= camera.height)
-      throw core::InputError(core::format("pixel (%d, %d)", pixel->x, pixel->y),
-                             "a pixel of camera '" + camera.name + "' expected");
     const auto [at, is_new] = film_of.try_emplace(pixel->camera.value, films_.size());
     if (is_new)
       films_.push_back(

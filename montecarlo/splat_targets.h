@@ -14,7 +14,7 @@ namespace interflect::montecarlo {
 /// Measurements that a path from a light cannot hit, and is joined with: points and pixels.
 class SplatTargets {
  public:
-  /// The scene must outlive it.
+  /// @pre  require_measurable of all.  The scene must outlive it.
   SplatTargets(const scene::Scene& scene, std::span<const measure::Measurement> asked);
 
   struct Point {

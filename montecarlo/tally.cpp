@@ -1,5 +1,8 @@
 #include "montecarlo/tally.h"
 
+#include "core/format.h"
+#include "core/log.h"
+
 namespace interflect::montecarlo {
 
 void Tally::add(const Spectrum& sample, double weighed_sample, std::uint64_t index) {
@@ -29,6 +32,14 @@ Estimate Tally::estimate(const Spectrum& largest) const {
     found.claim = Claim::none;
   }
   return found;
+}
+
+void warn_of_bugs(const Tally& tally, const char* who, std::size_t measurement, std::uint64_t seed) {
+  if (tally.not_finite == 0) return;
+  core::log::warning(core::format(
+      "%s: %llu samples of measurement %zu are not finite and count as zero (first: seed %llu, sample %llu)", who,
+      static_cast<unsigned long long>(tally.not_finite), measurement, static_cast<unsigned long long>(seed),
+      static_cast<unsigned long long>(tally.first_not_finite)));
 }
 
 }  // namespace interflect::montecarlo

@@ -23,4 +23,7 @@ struct Tally {
   Estimate estimate(const Spectrum& largest) const;
 };
 
+/// One line where samples were not finite, with the key of the first.
+void warn_of_bugs(const Tally& tally, const char* who, std::size_t measurement, std::uint64_t seed);
+
 }  // namespace interflect::montecarlo

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/overloaded.h"
+
 namespace interflect::scene {
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce aggregates
 
 constexpr double radians(double degrees) { return degrees * (pi / 180); }
 
@@ -32,19 +27,19 @@ FilmMap::FilmMap(const Camera& camera)
     const double half_height = std::tan(fov_y_deg * (pi / 360));
     half_ = {half_height * camera.width / camera.height, half_height};
   };
-  std::visit(Overloaded{[&](const Pinhole& p) { perspective(p.fov_y_deg); },
-                        [&](const ThinLens& l) { perspective(l.fov_y_deg); },
-                        [&](const Orthographic& o) {
-                          half_ = {o.height / 2 * aspect, o.height / 2};
-                        },
-                        [&](const Panoramic& p) {
-                          half_ = {radians(p.width_deg / 2), radians(p.height_deg / 2)};
-                        },
-                        [&](const Fisheye& f) {
-                          radius_ = size_.minCoeff() / 2;
-                          const double half = radians(f.fov_deg / 2);
-                          reach_ = f.mapping == Fisheye::Mapping::equidistant ? half : 2 * std::sin(half / 2);
-                        }},
+  std::visit(core::Overloaded{[&](const Pinhole& p) { perspective(p.fov_y_deg); },
+                              [&](const ThinLens& l) { perspective(l.fov_y_deg); },
+                              [&](const Orthographic& o) {
+                                half_ = {o.height / 2 * aspect, o.height / 2};
+                              },
+                              [&](const Panoramic& p) {
+                                half_ = {radians(p.width_deg / 2), radians(p.height_deg / 2)};
+                              },
+                              [&](const Fisheye& f) {
+                                radius_ = size_.minCoeff() / 2;
+                                const double half = radians(f.fov_deg / 2);
+                                reach_ = f.mapping == Fisheye::Mapping::equidistant ? half : 2 * std::sin(half / 2);
+                              }},
              projection_);
 }
 
@@ -59,7 +54,7 @@ Vec2 FilmMap::film_on(const Vec2& plane) const {
 std::optional<CameraRay> FilmMap::ray(const Vec2& film, const Vec2& lens) const {
   using Ray = std::optional<CameraRay>;
   return std::visit(
-      Overloaded{
+      core::Overloaded{
           [&](const Pinhole&) -> Ray {
             const Vec2 at = plane_of(film);
             return CameraRay{eye_, (forward_ + at.x() * right_ + at.y() * above_).normalized()};
@@ -94,45 +89,45 @@ std::optional<Vec2> FilmMap::film_of(const CameraRay& ray) const {
   using Film = std::optional<Vec2>;
   const Vec3 d = local(ray.direction);
   return std::visit(
-      Overloaded{[&](const Pinhole&) -> Film {
-                   if (!(d.z() > 0)) return {};
-                   return film_on({d.x() / d.z(), d.y() / d.z()});
-                 },
-                 [&](const ThinLens& l) -> Film {
-                   if (!(d.z() > 0)) return {};
-                   const Vec3 from = local(ray.origin - eye_);
-                   return film_on({from.x() / l.focus + d.x() / d.z(), from.y() / l.focus + d.y() / d.z()});
-                 },
-                 [&](const Orthographic&) -> Film {
-                   const Vec3 from = local(ray.origin - eye_);
-                   return film_on({from.x(), from.y()});
-                 },
-                 [&](const Panoramic&) -> Film {
-                   return film_on({std::atan2(d.x(), d.z()), std::atan2(d.y(), std::hypot(d.x(), d.z()))});
-                 },
-                 [&](const Fisheye& f) -> Film {
-                   const double theta = angle_from_axis(d), aside = std::hypot(d.x(), d.y());
-                   const bool equidistant = f.mapping == Fisheye::Mapping::equidistant;
-                   const double r = (equidistant ? theta : 2 * std::sin(theta / 2)) / reach_;
-                   if (!(r <= 1)) return {};
-                   const Vec2 to = aside > 0 ? Vec2(d.x() / aside, d.y() / aside) : Vec2(Vec2::Zero());
-                   return Vec2(size_.x() / 2 + radius_ * r * to.x(), size_.y() / 2 - radius_ * r * to.y());
-                 }},
+      core::Overloaded{[&](const Pinhole&) -> Film {
+                         if (!(d.z() > 0)) return {};
+                         return film_on({d.x() / d.z(), d.y() / d.z()});
+                       },
+                       [&](const ThinLens& l) -> Film {
+                         if (!(d.z() > 0)) return {};
+                         const Vec3 from = local(ray.origin - eye_);
+                         return film_on({from.x() / l.focus + d.x() / d.z(), from.y() / l.focus + d.y() / d.z()});
+                       },
+                       [&](const Orthographic&) -> Film {
+                         const Vec3 from = local(ray.origin - eye_);
+                         return film_on({from.x(), from.y()});
+                       },
+                       [&](const Panoramic&) -> Film {
+                         return film_on({std::atan2(d.x(), d.z()), std::atan2(d.y(), std::hypot(d.x(), d.z()))});
+                       },
+                       [&](const Fisheye& f) -> Film {
+                         const double theta = angle_from_axis(d), aside = std::hypot(d.x(), d.y());
+                         const bool equidistant = f.mapping == Fisheye::Mapping::equidistant;
+                         const double r = (equidistant ? theta : 2 * std::sin(theta / 2)) / reach_;
+                         if (!(r <= 1)) return {};
+                         const Vec2 to = aside > 0 ? Vec2(d.x() / aside, d.y() / aside) : Vec2(Vec2::Zero());
+                         return Vec2(size_.x() / 2 + radius_ * r * to.x(), size_.y() / 2 - radius_ * r * to.y());
+                       }},
       projection_);
 }
 
 double FilmMap::pdf_solid_angle(const Vec3& direction) const {
   const Vec3 d = local(direction);
   const double pixel = pixel_area();
-  return std::visit(Overloaded{[&](const Pinhole&) { return 1 / (pixel * d.z() * d.z() * d.z()); },
-                               [&](const ThinLens&) { return 1 / (pixel * d.z() * d.z() * d.z()); },
-                               [](const Orthographic&) { return 0.0; },
-                               [&](const Panoramic&) { return 1 / (pixel * std::hypot(d.x(), d.z())); },
-                               [&](const Fisheye& f) {
-                                 const double scale = radius_ * radius_ / (reach_ * reach_);
-                                 const bool equal_areas = f.mapping == Fisheye::Mapping::equisolid;
-                                 return equal_areas ? scale : scale * over_sine(angle_from_axis(d));
-                               }},
+  return std::visit(core::Overloaded{[&](const Pinhole&) { return 1 / (pixel * d.z() * d.z() * d.z()); },
+                                     [&](const ThinLens&) { return 1 / (pixel * d.z() * d.z() * d.z()); },
+                                     [](const Orthographic&) { return 0.0; },
+                                     [&](const Panoramic&) { return 1 / (pixel * std::hypot(d.x(), d.z())); },
+                                     [&](const Fisheye& f) {
+                                       const double scale = radius_ * radius_ / (reach_ * reach_);
+                                       const bool equal_areas = f.mapping == Fisheye::Mapping::equisolid;
+                                       return equal_areas ? scale : scale * over_sine(angle_from_axis(d));
+                                     }},
                     projection_);
 }
 

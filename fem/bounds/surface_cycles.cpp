@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
+
+#include "core/disjoint_sets.h"
 
 namespace interflect::fem {
 namespace {
@@ -14,23 +15,6 @@ namespace {
 using Numbers = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  /// The lowest of a set is its root.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  Numbers parent_;
-};
 
 /// The cells at each piece, of those that may be in a cycle.
 std::vector<Numbers> cells_at(const EdgePieces& pieces) {
@@ -104,21 +88,21 @@ class Sheets {
     for (const Numbers& cells : cells_at_piece)
       if (cells.size() == 2) cells_.join(cells[0], cells[1]);
     for (const Numbers& cells : cells_at_piece)
-      for (const std::uint32_t cell : cells) sheet_of_[cell] = cells_.root(cell);
+      for (const std::uint32_t cell : cells) sheet_of_[cell] = cells_.of(cell);
     for (const Numbers& cells : cells_at_piece)
       if (cells.size() > 2) add_equation(cells);
   }
 
   /// The cycles of each sheet, by its first cell.
   std::map<std::uint32_t, Numbers> cycles() {
-    DisjointSets joined(sheet_of_.size());
+    core::DisjointSets joined(sheet_of_.size());
     for (const Numbers& equation : equations_)
       for (const std::uint32_t sheet : equation) joined.join(equation.front(), sheet);
     std::map<std::uint32_t, Numbers> sheets_of;  // by the first that they are joined with
     for (std::uint32_t cell = 0; cell < sheet_of_.size(); ++cell)
-      if (sheet_of_[cell] == cell) sheets_of[joined.root(cell)].push_back(cell);
+      if (sheet_of_[cell] == cell) sheets_of[joined.of(cell)].push_back(cell);
     std::map<std::uint32_t, std::vector<const Numbers*>> equations_of;
-    for (const Numbers& equation : equations_) equations_of[joined.root(equation.front())].push_back(&equation);
+    for (const Numbers& equation : equations_) equations_of[joined.of(equation.front())].push_back(&equation);
     std::map<std::uint32_t, Numbers> out;
     std::uint32_t cycles = 0;
     for (const auto& [first, sheets] : sheets_of) add_cycles(sheets, equations_of[first], cycles, out);
@@ -154,7 +138,7 @@ class Sheets {
   }
 
   Numbers sheet_of_;  ///< by cell, the first cell of its sheet; `none` where it is in no cycle
-  DisjointSets cells_;
+  core::DisjointSets cells_;
   std::set<Numbers> equations_;
 };
 

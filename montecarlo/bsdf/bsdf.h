@@ -50,6 +50,8 @@ class Bsdf {
   virtual bool lets_pass() const { return false; }
   /// Whether f(a -> b) may be other than 0 where a and b are on different sides.
   virtual bool transmits() const { return false; }
+  /// Whether what is not delta favours directions (measure::PathLetter).
+  virtual bool glossy() const { return false; }
   /// Whether f is 0 everywhere: a path cannot be joined here with another.
   virtual bool only_delta() const { return false; }
 };

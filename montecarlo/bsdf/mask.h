@@ -31,6 +31,7 @@ class Mask final : public Bsdf {
   bool lets_pass() const override { return true; }
   bool transmits() const override { return of_ && of_->transmits(); }
   bool mirrors() const override { return of_ && of_->mirrors(); }
+  bool glossy() const override { return of_ && of_->glossy(); }
   bool only_delta() const override { return opacity_ == 0 || !of_ || of_->only_delta(); }
 
  private:
@@ -53,6 +54,7 @@ class FrontOnly final : public Bsdf {
     return known.z() > 0 ? of_->sample(known, u, walk) : std::nullopt;
   }
   bool mirrors() const override { return of_->mirrors(); }
+  bool glossy() const override { return of_->glossy(); }
   bool only_delta() const override { return of_->only_delta(); }
 
  private:

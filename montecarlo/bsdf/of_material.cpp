@@ -26,6 +26,7 @@ Made made(const scene::Metal& metal, const Spectrum&) {
   return std::make_unique<RoughConductor>(metal.roughness, std::move(fresnel));
 }
 Made made(const scene::Glass& glass, const Spectrum&) {
+  if (std::abs(glass.index - 1) < 1e-6) return std::make_unique<Mask>(0, nullptr);  // nothing that could be seen
   if (glass.roughness < smooth) return std::make_unique<Dielectric>(glass.index);
   return std::make_unique<RoughDielectric>(glass.roughness, glass.index);
 }

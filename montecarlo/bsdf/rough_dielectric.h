@@ -27,6 +27,7 @@ class RoughDielectric final : public Bsdf {
   Spectrum f(const Vec3& from, const Vec3& to) const override;
   double pdf_solid_angle(const Vec3& known, const Vec3& drawn) const override;
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override;
+  bool glossy() const override { return true; }
   bool transmits() const override { return true; }
 
  private:

@@ -77,6 +77,7 @@ class ThinPane final : public SmoothBsdf {
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk) const override {
     Spectrum R, T;
     set_parts(std::abs(known.z()), R, T);
+    if (R.is_zero() && T.is_zero()) return std::nullopt;
     const double reflects = R.max() / (R.max() + T.max());
     if (u[0] < reflects) return to(mirrored(known), R / reflects);
     Scattered through = to(-known, T / (1 - reflects));

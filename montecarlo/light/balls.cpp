@@ -4,9 +4,11 @@
 
 namespace interflect::montecarlo {
 
-std::optional<Balls::Hit> Balls::closest(const Vec3& origin, const Vec3& direction, double within) const {
+std::optional<Balls::Hit> Balls::closest(const Vec3& origin, const Vec3& direction, double within,
+                                         std::uint32_t except) const {
   std::optional<Hit> found;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
+    if (i == except) continue;
     const auto& [centre, radius] = balls_[i];
     const Vec3 to_centre = centre - origin;
     const double middle = to_centre.dot(direction);

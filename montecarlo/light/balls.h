@@ -21,10 +21,12 @@ class Balls {
   void add(const Vec3& centre, double radius) { balls_.push_back({centre, radius}); }
   bool empty() const { return balls_.empty(); }
 
-  /// The first ball met, from outside or within, before `within` [m].
-  std::optional<Hit> closest(const Vec3& origin, const Vec3& direction, double within) const;
-  /// Whether any but `except` stands between the ends, or holds one.
   static constexpr std::uint32_t none = ~0u;
+  /// The first ball met, from outside or within, before `within` [m].
+  /// @param except  the one that the ray leaves, outwards: it is not met again, whatever rounding says
+  std::optional<Hit> closest(const Vec3& origin, const Vec3& direction, double within,
+                             std::uint32_t except = none) const;
+  /// Whether any but `except` stands between the ends, or holds one.
   bool block(const Vec3& from, const Vec3& to, std::uint32_t except = none) const;
 
  private:

@@ -55,6 +55,7 @@ struct LightExtent {
   double cos_normals = -1;    ///< cosine of that half angle,
   double cos_emission = -1;   ///< and light within this half angle (at most a quarter turn counts) of a normal
   double intensity = 0;       ///< [W/sr] in the brightest direction and channel, of all together
+  bool by_cosine = false;     ///< intensities fall as the cosine with the normal does
 };
 
 /// Something that shines, as all integrators see it: paths from the eye draw what arrives at a place; paths from

@@ -14,8 +14,18 @@
 
 namespace interflect::montecarlo {
 
+/// Of all that light may meet.
+static geometry::Box box_with_balls(const scene::Scene& scene) {
+  geometry::Box box = scene.box();
+  for (const scene::SphereLight& ball : scene.lights.spheres) {
+    const Vec3 reach = Vec3::Constant(ball.radius);
+    box.extend(geometry::Box(ball.centre - reach, ball.centre + reach));
+  }
+  return box;
+}
+
 LightSet::LightSet(const scene::Scene& scene, Picking picking) : of_facet_(scene.facets.size(), none) {
-  const geometry::Box box = scene.box();
+  const geometry::Box box = box_with_balls(scene);
   centre_ = box.center(), radius_ = box.diagonal().norm() / 2;
   add_surfaces(scene);
   const scene::Lights& others = scene.lights;

@@ -46,7 +46,9 @@ double cost(const LightExtent& e) {
 LightExtent united(const LightExtent& a, const LightExtent& b) {
   if (a.intensity == 0) return b;
   if (b.intensity == 0) return a;
-  LightExtent all{a.box.merged(b.box), a.axis, 1, std::min(a.cos_emission, b.cos_emission), a.intensity + b.intensity};
+  LightExtent all{
+      a.box.merged(b.box),       a.axis, 1, std::min(a.cos_emission, b.cos_emission), a.intensity + b.intensity,
+      a.by_cosine && b.by_cosine};
   const double angle_a = angle_of(a.cos_normals), angle_b = angle_of(b.cos_normals),
                between = angle_of(a.axis.dot(b.axis));
   const auto& [wide, narrow, of_wide, of_narrow] =
@@ -134,7 +136,7 @@ struct LightTree::Build {
     const auto at = static_cast<std::uint32_t>(tree.nodes_.size());
     const double diagonal = e.box.diagonal().squaredNorm();
     tree.nodes_.push_back({e.box.center(), e.axis, diagonal / 4, e.cos_normals, sine_of(e.cos_normals), e.cos_emission,
-                           e.intensity, 0, of[0]});
+                           e.intensity, e.by_cosine, 0, of[0]});
     tree.depth_ = std::max(tree.depth_, depth);
     if (of.size() == 1) {
       tree.way_to_[of[0]] = way;
@@ -167,7 +169,7 @@ double LightTree::importance(const Node& node, const Place& at) {
     const double cosine = std::clamp(node.axis.dot(way) / d, -1., 1.);
     const Angle beyond = Angle{cosine, sine_of(cosine)}.less({node.cos_normals, node.sin_normals}).less(spread);
     if (beyond.cosine < node.cos_emission - rounding) return 0;
-    cosines = std::max(beyond.cosine, least_cosine);
+    if (node.by_cosine) cosines = std::max(beyond.cosine, least_cosine);
   }
   if (!at.normal.isZero(0)) {
     const double cosine = std::clamp(-at.normal.dot(way) / d, -1., 1.);

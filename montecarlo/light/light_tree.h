@@ -40,6 +40,7 @@ class LightTree {
     Vec3 centre, axis;
     double half2;  ///< square of half the box's diagonal
     double cos_normals, sin_normals, cos_emission, intensity;
+    bool by_cosine;
     std::uint32_t second = 0;  ///< child; the first follows its parent; 0: a leaf
     std::uint32_t light = 0;   ///< of a leaf
   };

@@ -4,7 +4,7 @@ namespace interflect::montecarlo {
 
 RectangleLight::RectangleLight(const Vec3& corner, const Vec3& u, const Vec3& v, const Vec3& normal,
                                const Spectrum& exitance)
-    : DiffuseSide(normal, u.norm() * v.norm(), exitance, corner + (u + v) / 2, (u + v).norm()),
+    : FlatLight(normal, u.norm() * v.norm(), exitance, corner + (u + v) / 2, (u + v).norm()),
       corner_(corner),
       u_(u),
       v_(v),
@@ -13,30 +13,10 @@ RectangleLight::RectangleLight(const Vec3& corner, const Vec3& u, const Vec3& v,
       x_(u / a_),
       y_(v / b_) {}
 
-std::optional<Arriving> RectangleLight::sample_arriving(const Place& at, double u, double v) const {
-  const Vec3& x = at.position;
-  if (!is_before(x)) return std::nullopt;
-  if (is_near(x)) {
-    const SphericalRectangle seen = seen_from(x);
-    if (seen.solid_angle() > smallest_solid_angle) {
-      const Vec2 y = seen.point(u, v);
-      return arriving(x, corner_ + y.x() * x_ + y.y() * y_, 1 / seen.solid_angle());
-    }
-  }
-  return arriving_by_area(x, corner_ + u * u_ + v * v_);
-}
-
-double RectangleLight::pdf_arriving_solid_angle(const Place& at, const Vec3& way, const Vec3& position) const {
-  const Vec3& x = at.position;
-  if (!is_before(x)) return 0;
-  if (is_near(x))
-    if (const double solid_angle = seen_from(x).solid_angle(); solid_angle > smallest_solid_angle)
-      return 1 / solid_angle;
-  return pdf_by_area(x, way, position);
-}
-
-Emission RectangleLight::sample_emission(const std::array<double, 4>& u) const {
-  return emission(corner_ + u[0] * u_ + u[1] * v_, u[2], u[3]);
+std::optional<Arriving> RectangleLight::arriving_within(const SphericalRectangle& seen, const Vec3& x, double u,
+                                                        double v) const {
+  const Vec2 y = seen.point(u, v);
+  return arriving(x, corner_ + y.x() * x_ + y.y() * y_, 1 / seen.solid_angle());
 }
 
 LightExtent RectangleLight::extent() const {

@@ -24,16 +24,11 @@ double inverse_of_ramp(double s) {
 
 }  // namespace
 
-Spot::Spot(const scene::SpotLight& light) : light_(light), beam_(1 - light.cos_beam), field_(1 - light.cos_field) {}
-
-std::optional<Arriving> Spot::sample_arriving(const Place& at, double, double) const {
-  const Vec3 way = light_.position - at.position;
-  const double square = way.squaredNorm(), r = std::sqrt(square);
-  if (!(r > 0)) return std::nullopt;
-  const double part = light_.falloff(-way.dot(light_.direction) / r);
-  if (!(part > 0)) return std::nullopt;
-  return Arriving{way / r, r, light_.position, Vec3::Zero(), light_.intensity * (part / square), 0};
-}
+Spot::Spot(const scene::SpotLight& light)
+    : LightFromPoint(light.position, light.intensity),
+      light_(light),
+      beam_(1 - light.cos_beam),
+      field_(1 - light.cos_field) {}
 
 double Spot::below_one(double u) const {
   const double share = u * (beam_ + field_);  // of the flux, over pi I

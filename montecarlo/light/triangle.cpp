@@ -12,8 +12,8 @@ double longest_side(const std::array<Vec3, 3>& c) {
 }  // namespace
 
 TriangleLight::TriangleLight(const std::array<Vec3, 3>& corner, const Vec3& normal, const Spectrum& exitance)
-    : DiffuseSide(normal, 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm(), exitance,
-                  (corner[0] + corner[1] + corner[2]) / 3, longest_side(corner)),
+    : FlatLight(normal, 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm(), exitance,
+                (corner[0] + corner[1] + corner[2]) / 3, longest_side(corner)),
       corner_(corner) {}
 
 SphericalTriangle TriangleLight::seen_from(const Vec3& x) const {
@@ -21,33 +21,13 @@ SphericalTriangle TriangleLight::seen_from(const Vec3& x) const {
       {(corner_[0] - x).normalized(), (corner_[1] - x).normalized(), (corner_[2] - x).normalized()});
 }
 
-std::optional<Arriving> TriangleLight::sample_arriving(const Place& at, double u, double v) const {
-  const Vec3& x = at.position;
-  if (!is_before(x)) return std::nullopt;
-  if (is_near(x)) {
-    const SphericalTriangle seen = seen_from(x);
-    if (seen.solid_angle() > smallest_solid_angle) {
-      const Vec3 way = seen.direction(u, v);
-      const double height = (x - corner_[0]).dot(normal_), cosine = -way.dot(normal_);
-      if (!(height > 0 && cosine > 0)) return std::nullopt;  // within rounding of the triangle's plane
-      const double r = std::min(height / cosine, reach_from(x));
-      return Arriving{way, r, x + r * way, normal_, radiance_, 1 / seen.solid_angle()};
-    }
-  }
-  return arriving_by_area(x, triangle_point(corner_[0], corner_[1], corner_[2], u, v));
-}
-
-double TriangleLight::pdf_arriving_solid_angle(const Place& at, const Vec3& way, const Vec3& position) const {
-  const Vec3& x = at.position;
-  if (!is_before(x)) return 0;
-  if (is_near(x))
-    if (const double solid_angle = seen_from(x).solid_angle(); solid_angle > smallest_solid_angle)
-      return 1 / solid_angle;
-  return pdf_by_area(x, way, position);
-}
-
-Emission TriangleLight::sample_emission(const std::array<double, 4>& u) const {
-  return emission(triangle_point(corner_[0], corner_[1], corner_[2], u[0], u[1]), u[2], u[3]);
+std::optional<Arriving> TriangleLight::arriving_within(const SphericalTriangle& seen, const Vec3& x, double u,
+                                                       double v) const {
+  const Vec3 way = seen.direction(u, v);
+  const double height = (x - corner_[0]).dot(normal_), cosine = -way.dot(normal_);
+  if (!(height > 0 && cosine > 0)) return std::nullopt;  // within rounding of the triangle's plane
+  const double r = std::min(height / cosine, reach_from(x));
+  return Arriving{way, r, x + r * way, normal_, radiance_, 1 / seen.solid_angle()};
 }
 
 LightExtent TriangleLight::extent() const { return extent_of(geometry::box_of(corner_)); }

@@ -6,19 +6,18 @@
 namespace interflect::montecarlo {
 
 /// The front of a triangle that emits diffusely.
-class TriangleLight final : public DiffuseSide {
+class TriangleLight final : public FlatLight<TriangleLight> {
  public:
   /// @param normal  unit: the way it shines
   TriangleLight(const std::array<Vec3, 3>& corner, const Vec3& normal, const Spectrum& exitance);
 
-  std::optional<Arriving> sample_arriving(const Place& at, double u, double v) const override;
-  double pdf_arriving_solid_angle(const Place& at, const Vec3& way, const Vec3& position) const override;
-  Emission sample_emission(const std::array<double, 4>& u) const override;
   LightExtent extent() const override;
 
- private:
+  Vec3 point(double u, double v) const { return triangle_point(corner_[0], corner_[1], corner_[2], u, v); }
   SphericalTriangle seen_from(const Vec3& x) const;
+  std::optional<Arriving> arriving_within(const SphericalTriangle& seen, const Vec3& x, double u, double v) const;
 
+ private:
   std::array<Vec3, 3> corner_;
 };
 

@@ -98,13 +98,6 @@ Projection read_projection(std::size_t kind, const JsonNode& node, const LengthU
 
 }  // namespace
 
-Vec3 read_direction(const JsonNode& node) {
-  const Vec3 direction = node.vec3();
-  const double length = direction.stableNorm();
-  if (!(length > 0)) node.fail("the zero vector is no direction");
-  return direction / length;
-}
-
 Camera read_camera(const JsonNode& node, const LengthUnit& unit, const Scene& scene) {
   Placement in_units;
   in_units.unit = unit;

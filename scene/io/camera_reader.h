@@ -4,9 +4,6 @@
 
 namespace interflect::scene::io {
 
-/// A unit vector from one of any length but 0.
-Vec3 read_direction(const JsonNode& node);
-
 /// @param scene  as far as it is read: its `up`, and how many cameras it has, are defaults
 /// @throws core::InputError  in one line, with the place
 Camera read_camera(const JsonNode& node, const LengthUnit& unit, const Scene& scene);

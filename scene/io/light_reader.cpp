@@ -15,13 +15,6 @@ void require_emission(const JsonNode& node) {
   if (node.number() < 0) node.fail(core::format("%.9g is negative: light is not less than nothing", node.number()));
 }
 
-Vec3 direction_of(const JsonNode& node) {
-  const Vec3 direction = node.vec3();
-  const double length = direction.stableNorm();
-  if (!(length > 0)) node.fail("the zero vector is no direction");
-  return direction / length;
-}
-
 /// A light's key by key.
 class LightNode {
  public:
@@ -41,7 +34,7 @@ class LightNode {
   /// By 'direction', or by a place that it aims at.
   Vec3 aim(const Vec3& from) const {
     if (node_.has("direction") == node_.has("target")) node_.fail("one of 'direction' and 'target' is expected");
-    if (node_.has("direction")) return direction_of(node_.at("direction"));
+    if (node_.has("direction")) return read_direction(node_.at("direction"));
     const Vec3 way = place("target") - from;
     if (!(way.stableNorm() > 0)) node_.at("target").fail("the light aims at itself");
     return way.stableNormalized();
@@ -92,7 +85,7 @@ class LightNode {
 
   void read_sun() {
     node_.only({"type", "name", "direction", "irradiance", "angular_radius_deg"});
-    Sun sun{name(), direction_of(node_.at("direction")), emission("irradiance")};
+    Sun sun{name(), read_direction(node_.at("direction")), emission("irradiance")};
     if (node_.has("angular_radius_deg")) {
       const JsonNode radius = node_.at("angular_radius_deg");
       sun.angular_radius = radius.number_in(0, 89) * pi / 180;

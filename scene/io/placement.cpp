@@ -82,4 +82,11 @@ Placement read_placement(const JsonNode& entry, const LengthUnit& unit) {
   return placement;
 }
 
+Vec3 read_direction(const JsonNode& node) {
+  const Vec3 direction = node.vec3();
+  const double length = direction.stableNorm();
+  if (!(length > 0)) node.fail("the zero vector is no direction");
+  return direction / length;
+}
+
 }  // namespace interflect::scene::io

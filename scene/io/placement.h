@@ -54,4 +54,7 @@ Vec3 read_place(const JsonNode& node, const Placement& placement);
 /// this order, then moved.  Multiples of 90 degrees are exact.
 Placement read_placement(const JsonNode& entry, const LengthUnit& unit);
 
+/// A unit vector from one of any length but 0.
+Vec3 read_direction(const JsonNode& node);
+
 }  // namespace interflect::scene::io

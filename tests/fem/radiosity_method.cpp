@@ -216,7 +216,7 @@ TEST(RadiosityMethod, refuses_lights_that_are_no_surfaces) {
     solve(scene, {});
     ADD_FAILURE();
   } catch (const core::InputError& error) {
-    EXPECT_STREQ(error.what(), "'sun': radiosity knows lights that are surfaces alone, trace this too");
+    EXPECT_STREQ(error.what(), "'sun': radiosity knows lights that are surfaces; interflect trace does this");
   }
 }
 

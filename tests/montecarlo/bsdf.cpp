@@ -231,7 +231,7 @@ TEST(Bsdfs, that_lose_nothing_are_invisible_in_a_furnace) {
     }
 }
 
-// A million directions fall where the pdf says, each weighs f |cos| / p of either walk, and nothing is drawn that has no
+// 200 000 directions fall where the pdf says, each weighs f |cos| / p of either walk, and nothing is drawn that has no
 // pdf.
 TEST(Bsdfs, draw_as_they_say) {
   constexpr int n = 200'000, rows = 24, columns = 24, fine = 24;
@@ -279,6 +279,7 @@ TEST(Bsdfs, draw_as_they_say) {
 TEST(RoughDielectric, has_smooth_glass_as_its_limit) {
   const RoughDielectric smooth(1e-3, 1.5), nothing(.3, 1 + 1e-9);
   const Vec3 known = at(.6, .5);
+  int straight = 0;  // but for what facets lose, which comes back diffusely
   for (std::uint64_t k = 0; k < 200; ++k) {
     const auto s = smooth.sample(known, numbers_of(4, k), Walk::from_eye);
     ASSERT_TRUE(s);
@@ -286,10 +287,9 @@ TEST(RoughDielectric, has_smooth_glass_as_its_limit) {
         s->way.z() > 0 ? core::reflected(known, Vec3::UnitZ()) : *core::refracted(known, Vec3::UnitZ(), 1.5);
     EXPECT_NEAR((s->way - ideal).norm(), 0, .1);
     const auto on = nothing.sample(known, numbers_of(5, k), Walk::from_eye);
-    if (on && on->pdf_solid_angle > 1e6) {
-      EXPECT_NEAR((on->way + known).norm(), 0, 1e-6);
-    }
+    straight += on && (on->way + known).norm() < 1e-6;
   }
+  EXPECT_GT(straight, 150);
 }
 
 // Of which walk is asked shows in refraction alone: radiance in glass is n² times that outside.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "montecarlo/film/splat_film.h"
+#include "montecarlo/light_tracer.h"
 #include "montecarlo/render.h"
 #include "montecarlo/warp.h"
 #include "scene/film_map.h"
@@ -151,9 +152,9 @@ TEST(Cameras, that_cannot_be_are_refused) {
   core::LocalRun run;
   const Scene scene = furnace(ThinLens{80, -1, 1});
   EXPECT_THROW(render(scene, {0}, 4, run), core::InputError);
-  EXPECT_THROW(PathTracer({.samples = 4})
-                   .answer(scene, std::vector<measure::Measurement>{measure::PixelRadiance{{0}, 0, 0}}, run),
-               core::InputError);
+  const std::vector<measure::Measurement> pixel{measure::PixelRadiance{{0}, 0, 0}};
+  EXPECT_THROW(PathTracer({.samples = 4}).answer(scene, pixel, run), core::InputError);
+  EXPECT_THROW(LightTracer({.samples = 4}).answer(scene, pixel, run), core::InputError);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "core/moments.h"
 #include "montecarlo/light/environment.h"
 #include "montecarlo/light/light_set.h"
 #include "montecarlo/light/point.h"
@@ -536,17 +537,32 @@ TEST(LightTree, finds_each_light_as_bright_as_it_is) {
   for (const auto& light : lights) extents.push_back(light->extent());
   const LightTree tree(extents);
   const Place at{Vec3(5, 4, -.5), Vec3::UnitZ()};
-  constexpr int n = 400'000;
-  std::vector<double> found(lights.size());
+  const auto score = [&](std::uint32_t l, double u, double v) {  // of one draw, over the chance of the pick
+    const auto arriving = lights[l]->sample_arriving(at, u, v);
+    if (!arriving) return 0.0;
+    const double cosine = std::max(0.0, at.normal.dot(arriving->way));
+    return arriving->light[0] * cosine / (arriving->pdf_solid_angle > 0 ? arriving->pdf_solid_angle : 1);
+  };
+  constexpr int n = 400'000, fine = 64;
+  std::vector<core::ScalarMoments> found(lights.size());
+  std::vector<int> picks(lights.size());
   for (std::uint64_t k = 0; k < n; ++k) {
-    const auto picked = tree.pick(at, numbers_of(400, k)[0]);
-    found[picked.light] += 1 / picked.probability / n;
+    const auto u = numbers_of(400, k);
+    const auto picked = tree.pick(at, u[0]);
+    ++picks[picked.light];
+    found[picked.light].add(score(picked.light, u[1], u[2]) / picked.probability);
   }
+  int looked_at = 0;
   for (std::uint32_t l = 0; l < lights.size(); ++l) {
-    const double p = tree.probability(l, at);
-    if (n * p < 25) continue;  // too rare to be normal
-    EXPECT_NEAR(found[l], 1, 5.2 * std::sqrt((1 - p) / (n * p))) << l;
+    if (picks[l] < 100) continue;  // too rare to be normal
+    double truth = 0;
+    for (int i = 0; i < fine; ++i)
+      for (int j = 0; j < fine; ++j) truth += score(l, (i + .5) / fine, (j + .5) / fine) / (fine * fine);
+    found[l].merge(core::ScalarMoments(n - found[l].count(), 0, 0));  // all other picks
+    EXPECT_NEAR(found[l].mean(), truth, 5.2 * found[l].standard_error() + 2e-3 * truth) << l;
+    ++looked_at;
   }
+  EXPECT_GT(looked_at, 50);
 }
 
 }  // namespace

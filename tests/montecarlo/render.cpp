@@ -194,6 +194,31 @@ TEST(Render, keeps_states_on_the_way) {
   EXPECT_THROW(render(scene, {0}, settings, run, *rays, from), core::InputError);
 }
 
+// A state may have come further in some pixels than the next pass goes: of a stop within a pass of another pace.
+TEST(Render, goes_on_from_pixels_that_are_further_than_others) {
+  const scene::Scene scene = lit_cube(0.5, 0, 1, 20, 16);
+  core::LocalRun run(3, 2);
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  for (const char* sequence : {"independent", "zero-two"}) {
+    const auto state_at = [&](std::uint64_t samples) {
+      FilmState state;
+      RenderCheckpoints checkpoints;
+      checkpoints.seconds_between = 0;
+      checkpoints.keep = [&](const FilmState& now) { state = now; };
+      render(scene, {0}, settings_with(samples, "box", sequence), run, *rays, checkpoints);
+      return state;
+    };
+    FilmState mixed = state_at(16);
+    const FilmState further = state_at(1024);
+    ASSERT_EQ(mixed.rows(), further.rows());
+    for (Index p = 0; p < mixed.rows(); p += 3) mixed.row(p) = further.row(p);
+    RenderCheckpoints from;
+    from.from = &mixed;
+    const RenderSettings settings = settings_with(2048, "box", sequence);
+    expect_same(render(scene, {0}, settings, run, *rays, from), render(scene, {0}, settings, run, *rays));
+  }
+}
+
 // All that a path sees first is one radiance: an even picture is shown without noise by every filter.
 TEST(Render, reproduces_constants_by_any_filter) {
   SceneBuilder builder({"grey"});
@@ -264,8 +289,10 @@ TEST(Render, knows_how_wrong_sequences_are) {
     return sum;
   };
   const double independent = squares("independent");
-  for (const char* sequence : {"stratified", "latin-hypercube", "halton", "sobol", "sobol-owen", "zero-two"})
-    EXPECT_LT(squares(sequence), 1.1 * independent) << sequence;
+  for (const char* sequence : {"stratified", "latin-hypercube", "sobol"})
+    EXPECT_LT(squares(sequence), 1.1 * independent);
+  for (const char* sequence : {"halton", "sobol-owen", "zero-two"})
+    EXPECT_LT(squares(sequence), .8 * independent) << sequence;
   EXPECT_THROW(render(scene, {0}, settings_with(100, "box", "sobol"), run, *rays), core::InputError);
   EXPECT_THROW(render(scene, {0}, settings_with(16, "box", "sobel"), run, *rays), core::InputError);
   EXPECT_THROW(render(scene, {0}, settings_with(16, "bocks", "sobol"), run, *rays), core::InputError);
