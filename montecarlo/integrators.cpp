@@ -1,6 +1,7 @@
 #include "montecarlo/integrators.h"
 
 #include "core/error.h"
+#include "montecarlo/bidirectional/bidirectional_tracer.h"
 #include "montecarlo/light_tracer.h"
 #include "montecarlo/path_tracer.h"
 
@@ -21,6 +22,8 @@ std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
 const std::vector<IntegratorEntry>& known_integrators() {
   static const std::vector<IntegratorEntry> all{
       {"path", "paths from what is measured, lights found by both ways", make<PathTracer, PathTracerSettings>},
+      {"bidirectional", "walks from both ends, joined in all ways",
+       make<BidirectionalTracer, BidirectionalTracerSettings>},
       {"light", "paths from lights, all measurements by the same ones", make<LightTracer, LightTracerSettings>},
   };
   return all;

@@ -1,9 +1,9 @@
 #include "montecarlo/film/splat_film.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
+#include "montecarlo/film/spread.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -21,17 +21,9 @@ SplatFilm::SplatFilm(const scene::Scene& scene, int width, int height, const Rec
       scoring_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), scene.channel_count()) {}
 
 void SplatFilm::Deposits::add(const Vec2& film, const Spectrum& value) {
-  const double reach = film_.filter_.reach();
-  const auto first = [&](double at) { return static_cast<int>(std::ceil(std::max(at - 0.5 - reach, 0.0))); };
-  const auto last = [&](double at, int size) {
-    return static_cast<int>(std::floor(std::min(at - 0.5 + reach, size - 1.0)));
-  };
-  for (int y = first(film.y()); y <= last(film.y(), film_.height_); ++y)
-    for (int x = first(film.x()); x <= last(film.x(), film_.width_); ++x)
-      if (const double h = film_.filter_.value(film - Vec2(x + 0.5, y + 0.5)); h != 0)
-        of_.push_back(
-            {static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(film_.width_) + static_cast<std::uint32_t>(x),
-             h * value});
+  spread(film, film_.width_, film_.height_, film_.filter_, [&](int x, int y, double h) {
+    of_.push_back({static_cast<std::uint32_t>(y * film_.width_ + x), h * value});
+  });
 }
 
 void SplatFilm::Deposits::join() {

@@ -17,7 +17,7 @@ std::optional<Balls::Hit> Balls::closest(const Vec3& origin, const Vec3& directi
     const double half = std::sqrt(left), t = middle - half > 0 ? middle - half : middle + half;
     if (!(t > 0 && t < within)) continue;
     const Vec3 normal = (origin + t * direction - centre).normalized();
-    found = Hit{i, t, centre + radius * normal};
+    found = Hit{i, t, centre + radius * normal, normal};
     within = t;
   }
   return found;

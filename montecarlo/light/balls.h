@@ -16,6 +16,7 @@ class Balls {
     std::uint32_t ball;
     double distance;  ///< [m]
     Vec3 position;
+    Vec3 normal;  ///< unit, outwards
   };
 
   void add(const Vec3& centre, double radius) { balls_.push_back({centre, radius}); }

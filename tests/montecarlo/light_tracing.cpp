@@ -1,4 +1,5 @@
 #include "montecarlo/light_tracer.h"
+#include "tests/montecarlo/rooms.h"
 #include "tests/montecarlo/statistics.h"
 #include "tests/support/shapes.h"
 
@@ -9,52 +10,16 @@ namespace {
 using scene::SceneBuilder;
 using test::at_point;
 using test::expect_agreement;
+using test::furnished;
+using test::parallelogram;
 using test::Question;
 using test::whole;
 
 const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
 
-geometry::PlanarPolygon parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v) {
-  return {{corner, corner + u, corner + u + v, corner + v}, {}};
-}
-
-/// A room that is not convex, of three reflectances, with a block that hides and a lamp.
-scene::Scene furnished(double scale) {
-  SceneBuilder builder({"a", "b"});
-  const auto of = [&](double a, double b, double lamp = 0) {
-    scene::Material material = test::diffuse("m", a, lamp);
-    material.reflectance[1] = b, material.exitance[1] = 2 * lamp;
-    return builder.add_material(material);
-  };
-  const auto grey = of(.5, .3), bright = of(.8, .7), dark = of(.1, .2), lamp = of(.2, .6, 5);
-  const auto add = [&](const char* name, const Vec3& corner, const Vec3& u, const Vec3& v, scene::MaterialId material) {
-    builder.add_polygon(name, parallelogram(scale * corner, scale * u, scale * v), material);
-  };
-  add("floor", Vec3::Zero(), 3 * x, 2 * y, grey);
-  add("ceiling", z, 2 * y, 3 * x, bright);
-  add("south", Vec3::Zero(), z, 3 * x, dark);
-  add("north", 2 * y, 3 * x, z, grey);
-  add("west", Vec3::Zero(), 2 * y, z, bright);
-  add("east", 3 * x, z, 2 * y, dark);
-  builder.add_box("block", geometry::Box(scale * Vec3(1, .6, .1), scale * Vec3(1.6, 1.1, .5)), grey);
-  add("lamp", Vec3(2, .5, .95), .4 * y, .5 * x, lamp);
-  builder.scene().cameras.push_back({"c", scale * Vec3(.1, .1, .6), scale * Vec3(2, 1.5, .3), z, 70, 6, 4});
-  return builder.finish();
-}
-
-/// Patches, flux, points in the air and on walls, and pixels, with what one method finds as the truth of the other.
 void expect_same(const scene::Scene& scene, const std::vector<measure::Measurement>& asked, std::uint64_t paths,
                  std::uint64_t samples, double largest_error) {
-  core::LocalRun run(3);
-  const auto eye = PathTracer({.samples = samples}).answer(scene, asked, run.get()),
-             light = LightTracer({.samples = paths}).answer(scene, asked, run.get());
-  const double limit = test::critical_z(test::alpha, asked.size() * static_cast<std::size_t>(scene.channel_count()));
-  for (std::size_t m = 0; m < asked.size(); ++m)
-    for (int c = 0; c < scene.channel_count(); ++c) {
-      const double error = std::hypot(eye[m].standard_error[c], light[m].standard_error[c]);
-      EXPECT_NEAR(light[m].value[c], eye[m].value[c], limit * error) << m << ", channel " << c;
-      EXPECT_LT(light[m].standard_error[c], largest_error * eye[m].value[c]) << m << ", channel " << c;
-    }
+  test::expect_same(LightTracer({.samples = paths}), PathTracer({.samples = samples}), scene, asked, largest_error);
 }
 
 TEST(LightTracer, agrees_with_paths_from_the_eye_on_all_that_can_be_asked) {
@@ -114,33 +79,7 @@ TEST(LightTracer, loses_nothing_of_points_spots_and_balls) {
 
 // And of all of them together, with the sun and a sky that come in where the ceiling is open.
 TEST(LightTracer, agrees_with_paths_from_the_eye_on_every_kind_of_light) {
-  SceneBuilder builder({"a", "b"});
-  const auto grey = builder.add_material([] {
-    scene::Material material = test::diffuse("m", .5, 0);
-    material.reflectance[1] = .3;
-    return material;
-  }());
-  const auto both = [](double a, double b) {
-    Spectrum s = test::grey(a);
-    s[1] = b;
-    return s;
-  };
-  const auto add = [&](const char* name, const Vec3& corner, const Vec3& u, const Vec3& v) {
-    builder.add_polygon(name, parallelogram(corner, u, v), grey);
-  };
-  add("floor", Vec3::Zero(), 3 * x, 2 * y);
-  add("south", Vec3::Zero(), z, 3 * x);
-  add("north", 2 * y, 3 * x, z);
-  add("west", Vec3::Zero(), 2 * y, z);
-  add("east", 3 * x, z, 2 * y);
-  add("half a ceiling", z, 2 * y, 1.5 * x);
-  scene::Lights& lights = builder.scene().lights;
-  lights.points.push_back({"p", Vec3(.4, .5, .7), both(.3, .2)});
-  lights.spots.push_back({"s", Vec3(2.5, 1.5, .9), Vec3(-.6, 0, -.8), both(1, 2), .95, .8});
-  lights.spheres.push_back({"b", Vec3(1.2, 1.3, .4), .15, both(4, 1)});
-  lights.suns.push_back({"sun", Vec3(-.48, .36, -.8), both(3, 2)});
-  lights.sky = scene::Sky{z, both(.4, .8), both(0, 0)};
-  const scene::Scene scene = builder.finish();
+  const scene::Scene scene = test::lit_by_all();
   std::vector<measure::Measurement> asked{test::all_fronts(scene)};
   for (const scene::SurfaceId id : scene.surface_ids())
     asked.push_back(measure::Flux{measure::patches_of(scene, id, scene::Side::front)});

@@ -1,0 +1,41 @@
+#include "montecarlo/receiver_sampler.h"
+
+#include "montecarlo/warp.h"
+
+namespace interflect::montecarlo {
+namespace {
+
+constexpr std::uint32_t place_block = 0, pick_block = 1;
+
+}  // namespace
+
+ReceiverSampler::ReceiverSampler(const measure::Measurement& asked) {
+  if (const auto* patch = std::get_if<measure::PatchIrradiance>(&asked)) set_regions({&patch->patch, 1});
+  if (const auto* flux = std::get_if<measure::Flux>(&asked)) set_regions(flux->through);
+  if (const auto* point = std::get_if<measure::PointIrradiance>(&asked)) point_ = {point->position, point->normal};
+}
+
+void ReceiverSampler::set_regions(std::span<const scene::SurfacePatch> patches) {
+  std::vector<double> areas;
+  for (const scene::SurfacePatch& patch : patches) {
+    regions_.push_back({patch, patch.normal()});
+    areas.push_back(patch.area);
+  }
+  pick_ = AliasTable(areas);
+  pdf_area_ = 1 / pick_.total();
+}
+
+Receiver ReceiverSampler::draw(core::RandomNumbers& numbers) const {
+  if (regions_.empty()) return point_;
+  std::uint32_t region = 0;
+  if (regions_.size() > 1) {
+    numbers.jump(pick_block);
+    region = pick_.pick(numbers.next());
+  }
+  numbers.jump(place_block);
+  const double u = numbers.next(), v = numbers.next();
+  const auto& [patch, normal] = regions_[region];
+  return {patch_point(patch, u, v), normal};
+}
+
+}  // namespace interflect::montecarlo
