@@ -142,6 +142,43 @@ TEST(Bidirectional, finds_what_a_mirror_throws) {
       .01);
 }
 
+// What is measured counts light from its own side alone and picks lights so, while the rough glass that it lies on picks
+// them from both: a light's walk that arrives there straight is weighed as the picks for what is measured are.
+TEST(Bidirectional, weighs_lights_by_picks_for_what_is_measured) {
+  SceneBuilder builder({"grey"});
+  scene::Material glass;
+  glass.finish = scene::Glass{1.5, .3};
+  glass.sides = scene::Sides::both;
+  builder.add_polygon("sheet", test::parallelogram(Vec3::Zero(), x, y), builder.add_material(glass));
+  builder.add_polygon("above", test::parallelogram(.4 * z, y, x), builder.add_material(test::diffuse("a", 0, 1)));
+  builder.add_polygon("below", test::parallelogram(-.4 * z, x, y), builder.add_material(test::diffuse("b", 0, 20)));
+  const scene::Scene scene = builder.finish();
+  const auto asked = [&](scene::Side side) {
+    return measure::Flux{measure::patches_of(scene, test::surface_named(scene, "sheet"), side)};
+  };
+  test::expect_same(BidirectionalTracer({.samples = 400'000}), PathTracer({.samples = 1'000'000}), scene,
+                    {asked(scene::Side::front), asked(scene::Side::back)}, .002);
+}
+
+// Joined within rough glass: what passes its two faces is squeezed at one and spread at the other.
+TEST(Bidirectional, joins_walks_within_rough_glass) {
+  SceneBuilder builder({"grey"});
+  scene::Material glass;
+  glass.finish = scene::Glass{1.5, .5};
+  glass.sides = scene::Sides::both;
+  builder.add_box("slab", {Vec3(-1, -1, 0), Vec3(1, 1, .4)}, builder.add_material(glass));
+  builder.add_polygon("floor", test::parallelogram(Vec3(-.5, -.5, -.3), x, y),
+                      builder.add_material(test::diffuse("f", .5, 0)));
+  builder.add_polygon("lamp", test::parallelogram(Vec3(-.5, -.5, .7), y, x),
+                      builder.add_material(test::diffuse("l", .5, 1)));
+  builder.scene().cameras.push_back({"c", Vec3(0, 0, .2), Vec3(0, 0, -1), y, 40, 1, 1});
+  const scene::Scene scene = builder.finish();
+  test::expect_same(BidirectionalTracer({.samples = 200'000}), PathTracer({.samples = 800'000}), scene,
+                    {measure::Flux{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)},
+                     measure::PointIrradiance{Vec3(0, 0, .2), z, {}}, measure::PixelRadiance{{0}, 0, 0}},
+                    .01);
+}
+
 // A small lamp's light through glass onto a floor that a camera sees: found by paths from the lamp, which few of the
 // eye's find.  With as many walks, counted as many times as there are, bidirectional tracing knows it far better.
 TEST(Bidirectional, knows_a_caustic_better_than_path_tracing) {
