@@ -150,8 +150,8 @@ TEST(Bidirectional, weighs_lights_by_picks_for_what_is_measured) {
   glass.finish = scene::Glass{1.5, .3};
   glass.sides = scene::Sides::both;
   builder.add_polygon("sheet", test::parallelogram(Vec3::Zero(), x, y), builder.add_material(glass));
-  builder.add_polygon("above", test::parallelogram(.4 * z, y, x), builder.add_material(test::diffuse("a", 0, 1)));
-  builder.add_polygon("below", test::parallelogram(-.4 * z, x, y), builder.add_material(test::diffuse("b", 0, 20)));
+  builder.add_polygon("above", test::parallelogram(1.2 * z, y, x), builder.add_material(test::diffuse("a", 0, 1)));
+  builder.add_polygon("below", test::parallelogram(-1.2 * z, x, y), builder.add_material(test::diffuse("b", 0, 20)));
   const scene::Scene scene = builder.finish();
   const auto asked = [&](scene::Side side) {
     return measure::Flux{measure::patches_of(scene, test::surface_named(scene, "sheet"), side)};
