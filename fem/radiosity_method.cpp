@@ -295,6 +295,11 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
 
 }  // namespace
 
+measure::Capabilities RadiosityMethod::capabilities() const {
+  const auto finds = measure::PathClasses::of("AD*E");
+  return {.unbiased = false, .consistent = true, .to_patches = finds, .to_points = finds, .to_pixels = finds};
+}
+
 std::vector<Estimate> RadiosityMethod::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                               Run& run) const {
   std::vector<Estimate> estimates(asked.size());

@@ -21,7 +21,7 @@ class RadiosityMethod final : public measure::Method {
   RadiosityMethod(const RadiositySolution& solution, const raycast::RayCaster& rays, PixelRays pixel = {})
       : solution_(solution), rays_(rays), pixel_(pixel) {}
   std::string name() const override { return "radiosity"; }
-  measure::Capabilities capabilities() const override { return {.unbiased = false, .consistent = true}; }
+  measure::Capabilities capabilities() const override;
   std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                Run& run) const override;
 

@@ -7,6 +7,7 @@
 #include "core/estimate.h"
 #include "core/run.h"
 #include "measure/measurement.h"
+#include "measure/path_classes.h"
 #include "scene/scene.h"
 
 namespace interflect::measure {
@@ -15,6 +16,13 @@ namespace interflect::measure {
 struct Capabilities {
   bool unbiased = false;    ///< expected value right for any number of samples
   bool consistent = false;  ///< right in the limit of its refinement
+  /// The paths that it finds, to what is asked.  Paths from points and spots straight into a pixel, `PS*E`, are nothing
+  /// to anyone: a point's own picture has no area.
+  PathClasses to_patches = PathClasses::all();  ///< patches and fluxes
+  PathClasses to_points = PathClasses::all();
+  PathClasses to_pixels = PathClasses::all();
+
+  const PathClasses& paths_to(const Measurement& asked) const;
 };
 
 /// A way to answer measurements: radiosity by finite elements, and every Monte Carlo integrator.

@@ -14,6 +14,7 @@ std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
   settings.samples = asked.samples;
   settings.target = asked.target;
   settings.intersector = asked.intersector;
+  settings.paths = asked.paths;
   return std::make_unique<Integrator>(std::move(settings));
 }
 

@@ -14,6 +14,7 @@ struct IntegratorSettings {
   std::uint64_t samples = 0;  ///< a measurement, or paths in all where they answer all; 0: as many as `target` asks for
   double target = 0.01;       ///< relative standard error
   std::string intersector = "embree";
+  measure::PathClasses paths = measure::PathClasses::all();  ///< that count
 };
 
 struct IntegratorEntry {

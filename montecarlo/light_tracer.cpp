@@ -7,10 +7,13 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "montecarlo/light/emission_picker.h"
 #include "montecarlo/measurable.h"
 #include "montecarlo/measured_patches.h"
+#include "montecarlo/path_letters.h"
 #include "montecarlo/roulette.h"
 #include "montecarlo/sampling.h"
+#include "montecarlo/scene_paths.h"
 #include "montecarlo/sight.h"
 #include "montecarlo/splat_targets.h"
 #include "montecarlo/tally.h"
@@ -56,29 +59,30 @@ class Deposits {
 /// Paths from the lights of a scene.
 class LightPaths {
  public:
-  LightPaths(const scene::Scene& scene, std::span<const measure::Measurement> asked, const raycast::RayCaster& caster)
-      : lights_(scene), optics_(scene), sight_(caster, lights_, optics_), patches_(asked), targets_(scene, asked) {
-    std::vector<double> power;
-    for (std::uint32_t l = 0; l < lights_.size(); ++l) power.push_back(lights_[l].flux().max());
-    if (std::any_of(power.begin(), power.end(), [](double each) { return each > 0; })) by_power_ = AliasTable(power);
-    powers_ = std::move(power);
-    require_joinable(scene);
-  }
+  LightPaths(const scene::Scene& scene, std::span<const measure::Measurement> asked, const raycast::RayCaster& caster,
+             const measure::PathClasses& paths)
+      : paths_(paths),
+        lights_(scene),
+        optics_(scene),
+        sight_(caster, lights_, optics_),
+        patches_(asked),
+        targets_(scene, asked),
+        emissions_(lights_) {}
 
-  bool dark() const { return by_power_.size() == 0; }
+  bool dark() const { return emissions_.empty(); }
   const LightSet& lights() const { return lights_; }
   const SplatTargets& targets() const { return targets_; }
 
   void trace(core::RandomNumbers& numbers, Deposits& deposits) const;
 
  private:
-  void require_joinable(const scene::Scene& scene) const {
-    if (targets_.empty()) return;
-    if (const auto mirror = optics_.any_mirror())
-      throw core::InputError("light tracing", "points and pixels do not see what '" + scene.surface(*mirror).name +
-                                                  "' shows: path tracing does");
-    if (!targets_.films().empty() && lights_.first_infinite() < lights_.size())
-      throw core::InputError("light tracing", "pixels do not see the sun or the sky themselves: path tracing does");
+  using Letters = measure::PathClasses::FromLight;
+  /// A path that ends so.
+  bool counts(Letters walk) const {
+    return measure::PathClasses::joined(paths_.after(walk, measure::PathLetter::eye), paths_.before_eye());
+  }
+  bool counts_straight_from(std::uint32_t light) const {
+    return counts(paths_.after(paths_.before_light(), letter_of(lights_[light])));
   }
 
   /// Light that has not met a surface yet.
@@ -89,13 +93,13 @@ class LightPaths {
   void join(const Vec3& y, const Vec3& normal, std::optional<std::uint32_t> light, const Sends& sends, bool points,
             const std::array<double, 4>& u, Deposits& deposits) const;
 
+  const measure::PathClasses& paths_;
   LightSet lights_;
   SurfaceOptics optics_;
   Sight sight_;
   MeasuredPatches patches_;
   SplatTargets targets_;
-  AliasTable by_power_;
-  std::vector<double> powers_;
+  EmissionPicker emissions_;
 };
 
 /// To one of the points and one pixel's camera, each drawn evenly.
@@ -136,7 +140,8 @@ void LightPaths::join_emission(std::uint32_t light, const Emission& emission, do
         all[std::min(all.size() - 1, static_cast<std::size_t>(which * static_cast<double>(all.size())))];
     const Place place{point.position, point.normal};
     const auto [picked, chance] = lights_.pick(place, pick);
-    const auto arriving = chance > 0 ? lights_[picked].sample_arriving(place, u, v) : std::nullopt;
+    const auto arriving =
+        chance > 0 && counts_straight_from(picked) ? lights_[picked].sample_arriving(place, u, v) : std::nullopt;
     const double cosine = arriving ? point.normal.dot(arriving->way) : 0;
     if (cosine > 0) {
       const Vec3 from =
@@ -147,7 +152,7 @@ void LightPaths::join_emission(std::uint32_t light, const Emission& emission, do
                        (cosine / (pdf * chance) * static_cast<double>(all.size())));
     }
   }
-  if (emission.normal.isZero()) return;  // a point's own picture is nothing
+  if (emission.normal.isZero() || !counts_straight_from(light)) return;  // a point's own picture is nothing
   const auto sends = [&](const Vec3& way) {
     const double cosine = emission.normal.dot(way);
     return cosine > 0 ? lights_[light].radiance(emission.position, way) * (cosine / (emission.pdf_area * probability))
@@ -158,8 +163,7 @@ void LightPaths::join_emission(std::uint32_t light, const Emission& emission, do
 
 void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
   numbers.jump(emission_block);
-  const std::uint32_t light = by_power_.pick(numbers.next());
-  const double probability = powers_[light] / by_power_.total();
+  const auto [light, probability] = emissions_.pick(numbers.next());
   std::array<double, 4> u;
   for (double& each : u) each = numbers.next();
   const Emission emission = lights_[light].sample_emission(u);
@@ -171,10 +175,14 @@ void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
   raycast::Ray ray{emission.position, emission.way, from_afar ? Vec3(Vec3::Zero()) : emission.normal};
   std::optional<std::uint32_t> leaves = light;
   std::vector<MeasuredPatches::Share> shares;
+  Letters letters = paths_.after(paths_.before_light(), letter_of(lights_[light]));
   for (std::uint32_t block = first_vertex_block;; block += blocks_per_vertex) {
     const auto hit = sight_.met(ray, std::exchange(leaves, std::nullopt)).surface;
     if (!hit) return;
-    patches_.at(*hit, shares);
+    if (counts(letters))
+      patches_.at(*hit, shares);
+    else
+      shares.clear();
     for (const auto& [measurement, per_flux] : shares) deposits.add(measurement, flux * per_flux);
     const Bsdf* bsdf = optics_.bsdf(hit->surface);
     if (bsdf == nullptr) return;
@@ -182,7 +190,7 @@ void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
     const Vec3 from = frame.to_local(-ray.direction);
     numbers.jump(block);
     const double lobe = numbers.next(), a = numbers.next(), b = numbers.next(), survival = numbers.next();
-    if (!targets_.empty() && !bsdf->only_delta()) {
+    if (!targets_.empty() && !bsdf->only_delta() && counts(paths_.after(letters, letter_of(*bsdf)))) {
       std::array<double, 4> joint;
       for (double& each : joint) each = numbers.next();
       const auto sends = [&](const Vec3& way) {
@@ -197,6 +205,7 @@ void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
     const double survives = going_on(flux.max() / at_first);
     if (!(survival < survives)) return;
     flux /= survives;
+    if (!on->straight) letters = paths_.after(letters, letter_of(*bsdf, *on));
     ray = {hit->position, frame.to_world(on->way), on->way.z() >= 0 ? frame.n : Vec3(-frame.n)};
   }
 }
@@ -354,12 +363,22 @@ void require_valid(const LightTracerSettings& settings) {
 
 }  // namespace
 
+/// What leaves a surface that is no mirror last can be joined with points and pixels; light at once is drawn from points,
+/// and pixels see lights that a path starts on.
+measure::Capabilities LightTracer::capabilities() const {
+  return {.unbiased = true,
+          .consistent = true,
+          .to_points = measure::PathClasses::of("L(.*(D|G))?E"),
+          .to_pixels = measure::PathClasses::of("AE|L.*(D|G)E")};
+}
+
 std::vector<Estimate> LightTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                           Run& run) const {
   require_valid(settings_);
   for (const measure::Measurement& each : asked) require_measurable(scene, each);
+  require_found(*this, scene, asked, settings_.paths);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
-  const LightPaths paths(scene, asked, *caster);
+  const LightPaths paths(scene, asked, *caster, settings_.paths);
   std::vector<Estimate> estimates(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
   if (paths.dark()) return estimates;
   const std::vector<std::size_t> of = answered(asked.size(), paths.targets());

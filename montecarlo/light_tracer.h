@@ -14,6 +14,7 @@ struct LightTracerSettings {
   double target_floor = 0.1;  ///< ... or relative to this part of the scene's mean irradiance
   std::uint64_t max_samples = std::uint64_t{1} << 28;
   std::string intersector = "embree";
+  measure::PathClasses paths = measure::PathClasses::all();  ///< that count
 };
 
 /// Light tracing [Arvo, Kirk 1990; Dutre, Lafortune, Willems 1993]: paths start on lights, in proportion to their flux,
@@ -39,7 +40,7 @@ class LightTracer final : public measure::Method {
  public:
   explicit LightTracer(LightTracerSettings settings = {}) : settings_(std::move(settings)) {}
   std::string name() const override { return "light"; }
-  measure::Capabilities capabilities() const override { return {.unbiased = true, .consistent = true}; }
+  measure::Capabilities capabilities() const override;
 
   /// When the run is stopped, the estimates have fewer samples.
   /// @throws core::Interrupted  if there are none yet

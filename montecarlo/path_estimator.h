@@ -1,7 +1,9 @@
 #pragma once
 
 #include "core/random.h"
+#include "measure/path_classes.h"
 #include "montecarlo/bsdf/lambert.h"
+#include "montecarlo/path_letters.h"
 #include "montecarlo/sight.h"
 
 namespace interflect::montecarlo {
@@ -33,8 +35,10 @@ struct Receiver {
 /// Irradiance is what a receiver that reflects everything diffusely would send, times pi.
 class PathEstimator {
  public:
-  /// Both must outlive it.
-  PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster);
+  /// Scene and caster must outlive it.
+  /// @param paths  those that count
+  PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster,
+                const measure::PathClasses& paths = measure::PathClasses::all());
 
   /// Irradiance H at a place [W/m² | lx].  Uses the dimensions of `numbers` from `block` on, four blocks a vertex.
   Spectrum irradiance(const Receiver& at, core::RandomNumbers& numbers, std::uint32_t block) const;
@@ -56,6 +60,7 @@ class PathEstimator {
     Frame frame;  ///< about the normal of the front
     Vec3 to_eye;  ///< in the frame
     const Bsdf* bsdf;
+    bool receives = false;  ///< what is measured: it has no letter
   };
   /// A ray, and where its direction was drawn.
   struct Drawn {
@@ -67,17 +72,28 @@ class PathEstimator {
   struct Carried {
     Spectrum found{}, throughput{1};
     double squeezed = 1;  ///< of the throughput
+    measure::PathClasses::FromEye letters;
   };
+  Carried from_eye() const;
+  bool ends_at(const Carried& path, measure::PathLetter light) const {
+    return all_paths_ || measure::PathClasses::complete(paths_.after(path.letters, light));
+  }
+  measure::PathClasses::FromEye with_letter(const Carried& path, const Vertex& at) const {
+    return all_paths_ || at.receives ? path.letters : paths_.after(path.letters, letter_of(*at.bsdf));
+  }
 
   void follow(Vertex at, Carried& path, core::RandomNumbers& numbers, std::uint32_t block) const;
   std::optional<Vertex> arrive(const Drawn& drawn, Carried& path) const;
   static Place place_of(const Vertex& at);
-  Spectrum from_lights(const Vertex& at, const Place& place, double pick, double u, double v) const;
-  Spectrum emitted(const Drawn& drawn, const scene::SurfacePoint& hit) const;
-  Spectrum escaped(const Drawn& drawn) const;
+  Spectrum from_lights(const Vertex& at, const Carried& path, const Place& place, double pick, double u,
+                       double v) const;
+  Spectrum emitted(const Drawn& drawn, const Carried& path, const scene::SurfacePoint& hit) const;
+  Spectrum escaped(const Drawn& drawn, const Carried& path) const;
   Spectrum shines(std::uint32_t light, const Drawn& drawn, const Vec3& from) const;
 
   const scene::Scene& scene_;
+  measure::PathClasses paths_;
+  bool all_paths_;
   LightSet lights_;
   SurfaceOptics optics_;
   Sight sight_;

@@ -9,6 +9,7 @@
 #include "core/format.h"
 #include "core/log.h"
 #include "montecarlo/sampling.h"
+#include "montecarlo/scene_paths.h"
 
 namespace interflect::montecarlo {
 
@@ -61,6 +62,11 @@ void warn_of_cap(const scene::Scene& scene, const SamplingTarget& target,
 
 }  // namespace
 
+measure::Capabilities PathTracer::capabilities() const {
+  const auto finds = measure::PathClasses::of("(A|F).*E|PE|P(D|G).*E");
+  return {.unbiased = true, .consistent = true, .to_patches = finds, .to_points = finds, .to_pixels = finds};
+}
+
 std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                          Run& run) const {
   return answer(scene, asked, run, *raycast::make_ray_caster(settings_.intersector, scene));
@@ -69,8 +75,9 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
 std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                          Run& run, const raycast::RayCaster& caster) const {
   require_valid(settings_);
+  require_found(*this, scene, asked, settings_.paths);
   const std::vector<MeasurementSampler> measurements = samplers_of(scene, asked);
-  const PathEstimator paths(scene, caster);
+  const PathEstimator paths(scene, caster, settings_.paths);
   if (paths.lights().empty())
     return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
 
@@ -100,7 +107,7 @@ PathTracer::Trial PathTracer::trial(const scene::Scene& scene, std::span<const m
     tried.push_back(asked[i * asked.size() / std::min(trials, asked.size())]);
   const std::vector<MeasurementSampler> measurements = samplers_of(scene, tried);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
-  const PathEstimator paths(scene, *caster);
+  const PathEstimator paths(scene, *caster, settings_.paths);
   if (paths.lights().empty()) return {};
 
   SamplingTarget target = target_of(settings_, paths);

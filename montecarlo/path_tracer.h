@@ -17,6 +17,7 @@ struct PathTracerSettings {
   double target_floor = 0.1;  ///< ... or relative to this part of the scene's mean irradiance, so that dark places end
   std::uint64_t max_samples = 1u << 26;  ///< per measurement, by a target: those that it ends are warned of
   std::string intersector = "embree";
+  measure::PathClasses paths = measure::PathClasses::all();  ///< that count
 };
 
 /// Path tracing (Kajiya 1986): next-event estimation combined with direction sampling by multiple importance sampling
@@ -26,6 +27,9 @@ struct PathTracerSettings {
 /// at least 4096, and is thrown away (Kirk and Arvo 1991): the answer stays unbiased.  Nearly all measurements reach
 /// the target.  Sample k of measurement m is keyed by (seed, m, k): same bits for any number of threads.
 ///
+/// Light of points and spots is found where it is picked for the surface that it arrives on, and not by a mirror or
+/// smooth glass: it refuses scenes that may have such light rather than leave it out.
+///
 /// Standard errors are those of independent paths, of each channel and of the scene's weighted value.  A measurement
 /// whose every sample scored zero while something emits has the standard error 3 w / n instead of 0 (rule of three; w:
 /// PathEstimator::largest_score, in the measurement's unit), so that "nothing found" is never told as "nothing there".  A
@@ -34,11 +38,11 @@ class PathTracer final : public measure::Method {
  public:
   explicit PathTracer(PathTracerSettings settings = {}) : settings_(std::move(settings)) {}
   std::string name() const override { return "path"; }
-  measure::Capabilities capabilities() const override { return {.unbiased = true, .consistent = true}; }
+  measure::Capabilities capabilities() const override;
 
   /// When the run is stopped, the estimates have fewer samples.
   /// @throws core::Interrupted  if some measurement has none yet
-  /// @throws core::InputError   for a measurement that cannot be taken, or settings out of range
+  /// @throws core::InputError   for a measurement that cannot be taken, paths that it misses, or settings out of range
   std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                Run& run) const override;
   /// The same with a ray caster of the scene that is there already.

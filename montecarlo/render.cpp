@@ -14,6 +14,8 @@
 #include "montecarlo/film/film.h"
 #include "montecarlo/film/reconstruction_filter.h"
 #include "montecarlo/measurement_sampler.h"
+#include "montecarlo/path_tracer.h"
+#include "montecarlo/scene_paths.h"
 #include "scene/film_map.h"
 
 namespace interflect::montecarlo {
@@ -30,6 +32,8 @@ bool independent(const RenderSettings& settings) { return settings.sequence == "
 void require_valid(const scene::Scene& scene, scene::CameraId id, const RenderSettings& settings) {
   if (id.value >= scene.cameras.size()) throw core::InputError("render", "a camera of the scene expected");
   scene::require_valid(scene.camera(id));
+  const measure::Measurement pixel = measure::PixelRadiance{id, 0, 0};
+  require_found(PathTracer(), scene, {&pixel, 1}, settings.paths);
   if (settings.samples == 0) throw core::InputError("render", "at least one sample a pixel expected");
   if (!independent(settings) && settings.samples % sequence_batches != 0)
     throw core::InputError("render", core::format("samples of the sequence '%s' come in %d randomisations, which say "
@@ -70,7 +74,7 @@ class Painter {
         map_(camera_),
         filter_(make_filter(settings.filter)),
         sequence_(core::make_sequence(settings.sequence, core::derived_seed(run.seed, "path tracer sequences"))),
-        paths_(scene, caster),
+        paths_(scene, caster, settings.paths),
         seed_(core::derived_seed(run.seed, "path tracer pixels")),
         run_(run),
         checkpoints_(checkpoints),

@@ -6,6 +6,7 @@
 
 #include "core/image.h"
 #include "core/run.h"
+#include "measure/path_classes.h"
 #include "montecarlo/film/film_state.h"
 #include "raycast/ray_caster.h"
 #include "scene/scene.h"
@@ -24,6 +25,7 @@ struct RenderSettings {
   std::uint64_t samples = 64;  ///< a pixel; but for independent ones a multiple of `sequence_batches`
   std::string filter = "box";
   std::string sequence = "independent";
+  measure::PathClasses paths = measure::PathClasses::all();  ///< that count
 };
 
 /// Samples of a sequence that is not independent come in so many randomisations of it, each in all pixels by itself:
@@ -53,7 +55,8 @@ std::pair<Index, Index> render_state_size(const scene::Scene& scene, scene::Came
 /// pixel's by randomisations of its own.
 /// @throws core::Interrupted  if it is stopped before every pixel has a sample, after its state was kept
 /// @throws core::InputError   if there is no such camera, or no samples are asked for, or a filter or sequence that is
-///                            not known, or for a state that is none of this picture or has more samples
+///                            not known, or for paths that it misses, or for a state that is none of this picture or
+///                            has more samples
 Rendering render(const scene::Scene& scene, scene::CameraId camera, const RenderSettings& settings, Run& run,
                  const raycast::RayCaster& caster, const RenderCheckpoints& checkpoints = {});
 

@@ -13,6 +13,7 @@
 #include "montecarlo/measured_patches.h"
 #include "montecarlo/receiver_sampler.h"
 #include "montecarlo/sampling.h"
+#include "montecarlo/scene_paths.h"
 #include "montecarlo/waves.h"
 
 namespace interflect::montecarlo {
@@ -220,10 +221,18 @@ void require_valid(const BidirectionalTracerSettings& settings) {
 
 }  // namespace
 
+/// Light of points needs two places in a row that walks can be joined at, or one before a point or pixel, or the first;
+/// patches are met by the light's walk itself.
+measure::Capabilities BidirectionalTracer::capabilities() const {
+  const auto finds = measure::PathClasses::of("(A|F).*E|PE|P(D|G).*E|P.*(D|G)(D|G).*E|P.*(D|G)E");
+  return {.unbiased = true, .consistent = true, .to_points = finds, .to_pixels = finds};
+}
+
 std::vector<Estimate> BidirectionalTracer::answer(const scene::Scene& scene,
                                                   std::span<const measure::Measurement> asked, Run& run) const {
   require_valid(settings_);
   for (const measure::Measurement& each : asked) require_measurable(scene, each);
+  require_found(*this, scene, asked, settings_.paths);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const BidirectionalEstimator walks(scene, *caster, settings_.paths, settings_.only);
   if (walks.dark())

@@ -32,11 +32,11 @@ class BidirectionalTracer final : public measure::Method {
  public:
   explicit BidirectionalTracer(BidirectionalTracerSettings settings = {}) : settings_(std::move(settings)) {}
   std::string name() const override { return "bidirectional"; }
-  measure::Capabilities capabilities() const override { return {.unbiased = true, .consistent = true}; }
+  measure::Capabilities capabilities() const override;
 
   /// When the run is stopped, the estimates have fewer samples.
   /// @throws core::Interrupted  if some measurement has none yet
-  /// @throws core::InputError   for measurements that cannot be taken, or settings out of range
+  /// @throws core::InputError   for measurements that cannot be taken, paths that it misses, or settings out of range
   std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                Run& run) const override;
 

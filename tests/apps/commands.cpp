@@ -289,7 +289,10 @@ TEST(Trace, has_estimates_by_either_integrator) {
   }
   const Outcome refused = trace("light", "materials");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(contains(refused.err, "light tracing: points and pixels do not see what")) << refused.err;
+  EXPECT_TRUE(contains(
+      refused.err,
+      "light: paths ASE (from a light with an area, by a mirror, pane or smooth glass) are not found at points"))
+      << refused.err;
 }
 
 // Bounds are no part of what a forecast measures: so many seconds an element, which differ between scenes.

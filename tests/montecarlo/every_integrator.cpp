@@ -1,4 +1,6 @@
+#include "montecarlo/bidirectional/bidirectional_tracer.h"
 #include "montecarlo/integrators.h"
+#include "montecarlo/light_tracer.h"
 #include "tests/montecarlo/rooms.h"
 #include "tests/montecarlo/statistics.h"
 
@@ -19,6 +21,12 @@ class EveryIntegrator : public testing::TestWithParam<std::string> {
     IntegratorSettings settings;
     settings.samples = samples;
     settings.intersector = intersector;
+    return make_integrator(GetParam(), settings);
+  }
+  std::unique_ptr<measure::Method> of_paths(std::uint64_t samples, const std::string& paths) const {
+    IntegratorSettings settings;
+    settings.samples = samples;
+    settings.paths = measure::PathClasses::of(paths);
     return make_integrator(GetParam(), settings);
   }
   /// A sample of light tracing is a path for all that is asked, of the others one for each.
@@ -106,10 +114,104 @@ TEST_P(EveryIntegrator, finds_a_dark_scene_dark_and_stops) {
   EXPECT_EQ(found[0].standard_error[0], 0);
 }
 
+// In a furnace of E = 1 - rho what comes after k reflections is E rho^k: to all kinds of measurements, k by k.
+TEST_P(EveryIntegrator, knows_paths_by_their_length) {
+  constexpr double rho = .6;
+  SceneBuilder builder({"grey"});
+  const auto wall = builder.add_material(test::diffuse("wall", rho, 1 - rho));
+  builder.add_box("room", {Vec3(0, 0, 0), Vec3(2, 3, 1)}, wall, SceneBuilder::Facing::inward);
+  builder.scene().cameras.push_back({"c", Vec3(.9, 1.2, .4), Vec3(1.5, 2.8, .7), z, 90, 1, 1});
+  const scene::Scene scene = builder.finish();
+  const auto side = measure::patches_of(scene, test::surface_named(scene, "room/x-"), scene::Side::front);
+  std::string scattered;
+  for (int k = 0; k < 5; ++k) {
+    const bool rest = k == 4;
+    const double truth = rest ? std::pow(rho, k) : (1 - rho) * std::pow(rho, k);
+    test::expect_agreement(*of_paths(samples(50'000), "A" + scattered + (rest ? "D*E" : "E")), scene,
+                           {{measure::Flux{side}, test::grey(3 * truth), "flux"},
+                            {measure::PatchIrradiance{side[0]}, test::grey(truth), "patch"},
+                            at_point(Vec3(1, 1, .5), z, truth),
+                            {measure::PixelRadiance{{0}, 0, 0}, test::grey(truth * inv_pi), "pixel"}},
+                           .1, static_cast<std::uint64_t>(k + 1));
+    scattered += "D";
+  }
+}
+
+// In a room of every material, class by class, as path tracing finds them.
+TEST_P(EveryIntegrator, agrees_with_path_tracing_class_by_class) {
+  const scene::Scene scene = test::shiny();
+  std::vector<measure::Measurement> asked{
+      measure::Flux{measure::patches_of(scene, test::surface_named(scene, "room/z-"), scene::Side::front)},
+      measure::Flux{measure::patches_of(scene, test::surface_named(scene, "plastic/z+"), scene::Side::front)}};
+  if (GetParam() != "light") asked.push_back(measure::PointIrradiance{Vec3(.3, 1, .4), Vec3(.6, 0, .8), {}});
+  for (const char* paths : {"AE", "AS.*E", "AD(D|G)*E", "A.*G.*D.*E"})
+    test::expect_same(*of_paths(samples(100'000), paths),
+                      PathTracer({.samples = 250'000, .paths = measure::PathClasses::of(paths)}), scene, asked, .2);
+}
+
 std::vector<std::string> that_find_all_paths() { return {"path", "bidirectional", "light"}; }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryIntegrator, testing::ValuesIn(that_find_all_paths()),
                          [](const auto& of) { return of.param; });
+
+/// A point over a mirror and a floor.
+scene::Scene point_and_mirror() {
+  SceneBuilder builder({"grey"});
+  scene::Material mirror;
+  mirror.finish = scene::Mirror{test::grey(.8)};
+  builder.add_polygon("mirror", test::parallelogram(Vec3::Zero(), x, y), builder.add_material(mirror));
+  builder.add_polygon("floor", test::parallelogram(x, x, y), builder.add_material(test::diffuse("floor", .5, 0)));
+  builder.add_polygon("ceiling", test::parallelogram(z, y, 2 * x), builder.add_material(test::diffuse("c", .5, 0)));
+  builder.scene().lights.points.push_back({"p", Vec3(.5, .5, .5), test::grey(1)});
+  builder.scene().cameras.push_back({"c", Vec3(1.5, .5, .5), Vec3(.5, .5, 0), z, 60, 2, 2});
+  return builder.finish();
+}
+
+// What nobody would find is not left out without a word.
+TEST(Integrators, refuse_what_they_would_miss_and_say_how_to_leave_it_out) {
+  const scene::Scene scene = point_and_mirror();
+  const measure::Measurement patch{
+      measure::Flux{measure::patches_of(scene, test::surface_named(scene, "ceiling"), scene::Side::front)}},
+      point{measure::PointIrradiance{Vec3(1.5, .5, .2), z, {}}}, pixel{measure::PixelRadiance{{0}, 0, 0}};
+  const auto refusal = [&](const char* name, const measure::Measurement& asked, const char* paths = "L.*E") {
+    core::LocalRun run(1);
+    IntegratorSettings settings;
+    settings.samples = 100;
+    settings.paths = measure::PathClasses::of(paths);
+    try {
+      make_integrator(name, settings)->answer(scene, {&asked, 1}, run.get());
+      return std::string();
+    } catch (const core::InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  for (const measure::Measurement& asked : {patch, point, pixel})
+    EXPECT_NE(refusal("path", asked).find("from a point or spot, by a mirror"), std::string::npos)
+        << refusal("path", asked);
+  EXPECT_EQ(refusal("light", patch), "");
+  EXPECT_NE(refusal("light", point).find("paths PSE "), std::string::npos) << refusal("light", point);
+  EXPECT_NE(refusal("light", pixel).find(", by a mirror"), std::string::npos) << refusal("light", pixel);
+  EXPECT_EQ(refusal("bidirectional", patch), "");
+  EXPECT_NE(refusal("bidirectional", point).find("paths PSE "), std::string::npos);
+  EXPECT_NE(refusal("bidirectional", pixel).find("paths PSDSE "), std::string::npos) << refusal("bidirectional", pixel);
+  // As the message says.
+  EXPECT_EQ(refusal("path", pixel, "(A|F).*E|PE|P(D|G).*E"), "");
+  EXPECT_EQ(refusal("light", point, "L(.*(D|G))?E"), "");
+  EXPECT_EQ(refusal("bidirectional", pixel, "(A|F).*E|PE|P(D|G).*E|P.*(D|G)(D|G).*E|P.*(D|G)E"), "");
+}
+
+// And what is asked without that is the same by all.
+TEST(Integrators, agree_on_what_all_find) {
+  const scene::Scene scene = point_and_mirror();
+  const std::vector<measure::Measurement> asked{
+      measure::Flux{measure::patches_of(scene, test::surface_named(scene, "ceiling"), scene::Side::front)},
+      measure::PointIrradiance{Vec3(1.5, .5, .2), z, {}}, measure::PixelRadiance{{0}, 1, 1}};
+  const auto paths = measure::PathClasses::of("PD.*DE|PDE|PD");
+  test::expect_same(BidirectionalTracer({.samples = 100'000, .paths = paths}),
+                    PathTracer({.samples = 100'000, .paths = paths}), scene, asked, .05);
+  test::expect_same(LightTracer({.samples = 1'000'000, .paths = paths}),
+                    PathTracer({.samples = 100'000, .paths = paths}), scene, asked, .05);
+}
 
 }  // namespace
 }  // namespace interflect::montecarlo
