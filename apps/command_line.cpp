@@ -58,6 +58,9 @@ void add_validate(CLI::App& app, Command& chosen) {
   add_radiosity(*command, options->solve, add_folder(*command, options->solve.out));
   add_no_pictures(*command, options->solve.pictures);
   add_accuracy(*command, options->accuracy, "each traced value");
+  command->add_option("--integrator", options->integrator, "How values are traced")
+      ->check(CLI::IsMember(montecarlo::integrator_names()))
+      ->capture_default_str();
   command->add_option("--elements", options->elements, "Elements to judge, a stratified choice")
       ->check(CLI::Range(1, 100000000))
       ->capture_default_str();
@@ -120,13 +123,34 @@ void add_trace(CLI::App& app, Command& chosen) {
   CLI::Option* estimates =
       command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
           ->check(named("a folder"));
-  command
-      ->add_option("--integrator", options->integrator,
-                   "How those estimates are found: by paths from what is measured, or from lights")
+  command->add_option("--integrator", options->integrator, "How those estimates are found: docs/compare.md")
       ->check(CLI::IsMember(montecarlo::integrator_names()))
       ->needs(estimates)
       ->capture_default_str();
   add_accuracy(*command, options->accuracy, "those estimates");
+  add_paths(*command, options->paths);
+  add_intersector(*command, options->intersector, "Ray caster");
+}
+
+void add_compare(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command = add_command<CompareOptions>(
+      app, "compare", "Several integrators on one scene: do they agree on the paths that all find, and which is best",
+      core::format("interflect compare %s --integrators path,light,bidirectional --target 1%% -o out/compared",
+                   example_scene),
+      compare, options, chosen);
+  add_scene(*command, options->scene);
+  add_folder(*command, options->out);
+  command->add_option("--integrators", options->integrators, "Which ones; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(montecarlo::integrator_names()));
+  add_target(*command, options->target);
+  add_paths(*command, options->paths);
+  add_camera(*command, options->camera);
+  command->add_option("--spp", options->samples, "Samples per pixel of the pictures")
+      ->check(CLI::Range(2, 1 << 20))
+      ->capture_default_str();
+  add_no_pictures(*command, options->pictures);
   add_intersector(*command, options->intersector, "Ray caster");
 }
 
@@ -313,6 +337,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_validate(app, command);
   add_render(app, command);
   add_trace(app, command);
+  add_compare(app, command);
   add_view_factors(app, command);
   add_compare_form_factors(app, command);
   add_solvers(app, command);

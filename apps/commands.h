@@ -16,6 +16,7 @@ ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& 
 ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run);
 ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run& run);
 ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& run);
+ExitStatus compare(const CompareOptions& options, const CommonOptions& common, Run& run);
 ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run);
 ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const CommonOptions& common, Run& run);
 ExitStatus solvers(const SolversOptions& options, const CommonOptions& common, Run& run);

@@ -253,6 +253,21 @@ void add_intersector(CLI::App& command, std::string& intersector, const std::str
       ->capture_default_str();
 }
 
+void add_target(CLI::App& command, double& target) {
+  command.add_option("--target", target, "Relative standard error of every measurement, such as 1%")
+      ->transform(fraction())
+      ->default_str("1%");
+}
+
+void add_paths(CLI::App& command, std::string& paths) {
+  command
+      .add_option("--paths", paths,
+                  "Paths of light that count, from light to eye: L any light (A with an area, P point, F far), D "
+                  "diffuse, G glossy, S mirror or glass, . any of these; ( ) | * + ? as ever")
+      ->check(named("paths"))
+      ->capture_default_str();
+}
+
 void add_accuracy(CLI::App& command, double& accuracy, const std::string& of) {
   command.add_option("--accuracy", accuracy, "Relative standard error of " + of + ", such as 1%")
       ->transform(fraction())

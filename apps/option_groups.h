@@ -30,6 +30,10 @@ CLI::Option* add_form_factors(CLI::App& command, std::string& method);
 void add_quadrature_tolerance(CLI::App& command, double& tolerance, const std::string& of);
 void add_closure(CLI::App& command, std::string& closure);
 void add_intersector(CLI::App& command, std::string& intersector, const std::string& description);
+/// Of every measurement, by `compare`.
+void add_target(CLI::App& command, double& target);
+/// Paths of light that count, in Heckbert's notation.
+void add_paths(CLI::App& command, std::string& paths);
 void add_accuracy(CLI::App& command, double& accuracy, const std::string& of);
 
 /// How much a form-factor method does: a row's error, samples, cells, rays.  What is not heeded is refused

@@ -41,7 +41,8 @@ struct DimOptions {
 
 struct ValidateOptions {
   SolveOptions solve;
-  double accuracy = 0.01;  ///< relative standard error asked of each traced value
+  double accuracy = 0.01;           ///< relative standard error asked of each traced value
+  std::string integrator = "path";  ///< by which they are traced
   bool all_elements = false;
   int elements = 500;        ///< judged, when not all
   int picture_samples = 64;  ///< per pixel of the traced picture
@@ -63,7 +64,19 @@ struct TraceOptions {
   bool resume = false;              ///< from the checkpoint of an earlier run
   std::filesystem::path estimates;  ///< folder for surfaces.csv and sensors.csv; empty: none
   std::string integrator = "path";  ///< of the estimates
+  std::string paths = "L.*E";       ///< that count
   double accuracy = 0.01;
+  std::string intersector = "embree";
+};
+
+struct CompareOptions {
+  std::filesystem::path scene, out;
+  std::vector<std::string> integrators;  ///< empty: all
+  double target = 0.01;                  ///< relative standard error of each measurement
+  std::string paths = "L.*E";            ///< that count
+  std::string camera;                    ///< empty: the scene's first
+  int samples = 16;                      ///< a pixel of the pictures
+  bool pictures = true;
   std::string intersector = "embree";
 };
 

@@ -5,9 +5,9 @@
 #include "apps/commands.h"
 #include "apps/picture_checkpoint.h"
 #include "apps/read_scene.h"
+#include "apps/scene_questions.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "measure/surface_measurements.h"
 #include "montecarlo/integrators.h"
 #include "montecarlo/render.h"
 #include "results/image_file.h"
@@ -21,27 +21,22 @@ namespace {
 /// Surfaces and sensors by an integrator, in the columns that every method writes; a stopped run writes what it has.
 /// @throws core::Interrupted  if it has nothing for some of them
 void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run& run) {
-  std::vector<measure::Measurement> asked;
-  std::vector<std::pair<scene::SurfaceId, scene::Side>> sides;
-  for (scene::SurfaceId id : scene.surface_ids())
-    for (scene::Side side : {scene::Side::front, scene::Side::back})
-      if (scene.material(id).active(side)) {
-        sides.emplace_back(id, side);
-        asked.emplace_back(measure::Flux{measure::patches_of(scene, id, side)});
-      }
-  const auto points = measure::sensor_points(scene);
-  for (const measure::SensorPoint& point : points) asked.emplace_back(point.at);
+  const SceneQuestions questions = questions_about(scene);
+  std::vector<measure::Measurement> asked = questions.on_sides;
+  asked.insert(asked.end(), questions.at_points.begin(), questions.at_points.end());
   montecarlo::IntegratorSettings settings;
   settings.target = options.accuracy;
   settings.intersector = options.intersector;
+  settings.paths = measure::PathClasses::of(options.paths);
   const std::vector<Estimate> found =
       montecarlo::make_integrator(options.integrator, settings)->answer(scene, asked, run);
   std::vector<results::SurfaceRow> rows;
-  for (std::size_t k = 0; k < sides.size(); ++k)
-    rows.push_back(
-        results::surface_row(scene, sides[k].first, sides[k].second, scaled(found[k], 1 / scene.area(sides[k].first))));
+  const std::vector<Estimate> means = mean_irradiances(scene, questions, found);
+  for (std::size_t k = 0; k < means.size(); ++k)
+    rows.push_back(results::surface_row(scene, questions.sides[k].first, questions.sides[k].second, means[k]));
   results::write_surfaces_csv(options.estimates / "surfaces.csv", rows, scene);
-  results::write_sensors_csv(options.estimates / "sensors.csv", points, std::span(found).subspan(sides.size()), scene);
+  results::write_sensors_csv(options.estimates / "sensors.csv", questions.points,
+                             std::span(found).subspan(means.size()), scene);
 }
 
 /// What there is to tell at the end.

@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <memory>
+#include <optional>
 
 #include "apps/commands.h"
 #include "apps/pictures.h"
@@ -7,12 +9,12 @@
 #include "apps/validation_files.h"
 #include "core/error.h"
 #include "core/format.h"
+#include "montecarlo/integrators.h"
 #include "montecarlo/path_tracer.h"
 
 namespace interflect::apps {
 namespace {
 
-using montecarlo::PathTracer;
 using validation::Certificate;
 using validation::Judged;
 
@@ -20,7 +22,8 @@ constexpr double accuracy_of_norms =
     3;  ///< the reference's 95 % error may be this many times the accuracy asked of a value
 
 /// Both methods' answers, as mean irradiances, in the order of the questions.
-std::vector<Judged> judge(const SolvedScene& solved, const Questions& questions, const PathTracer& tracer, Run& run) {
+std::vector<Judged> judge(const SolvedScene& solved, const Questions& questions, const measure::Method& tracer,
+                          Run& run) {
   const std::vector<Estimate> fem = solved.method().answer(solved.scene, questions.asked, run);
   const std::vector<Estimate> mc = tracer.answer(solved.scene, questions.asked, run);
   std::vector<Judged> judged = questions.judged;
@@ -67,11 +70,21 @@ Certificate certified(const SolvedScene& solved, std::span<const Judged> judged,
   return certificate;
 }
 
-PathTracer tracer_for(const ValidateOptions& options) {
+std::unique_ptr<measure::Method> tracer_for(const ValidateOptions& options) {
+  montecarlo::IntegratorSettings settings;
+  settings.target = options.accuracy;
+  settings.intersector = options.solve.settings.intersector;
+  return montecarlo::make_integrator(options.integrator, settings);
+}
+
+/// By a trial of a few of them; of path tracing alone.
+std::optional<double> tracing_seconds(const scene::Scene& scene, const Questions& questions,
+                                      const ValidateOptions& options, Run& run) {
+  if (options.integrator != "path") return std::nullopt;
   montecarlo::PathTracerSettings settings;
   settings.target = options.accuracy;
   settings.intersector = options.solve.settings.intersector;
-  return PathTracer(settings);
+  return montecarlo::PathTracer(settings).forecast(scene, questions.asked, run);
 }
 
 Questions questions_of(const scene::Scene& scene, const mesh::ElementMesh& mesh,
@@ -81,10 +94,10 @@ Questions questions_of(const scene::Scene& scene, const mesh::ElementMesh& mesh,
   return questions_about(scene, mesh, points, options.all_elements ? all : some, seed);
 }
 
-std::string tracing_text(const Questions& questions, const ValidateOptions& options, double seconds) {
-  return core::format("tracing %s measurements to %.2g %%, about %s",
-                      core::format_count(questions.asked.size()).c_str(), 100 * options.accuracy,
-                      core::format_duration(seconds).c_str());
+std::string tracing_text(const Questions& questions, const ValidateOptions& options, std::optional<double> seconds) {
+  return core::format("tracing %s measurements to %.2g %%%s", core::format_count(questions.asked.size()).c_str(),
+                      100 * options.accuracy,
+                      (seconds ? ", about " + core::format_duration(*seconds) : " by " + options.integrator).c_str());
 }
 
 /// With --forecast, what the solve and the tracing will need is the result; the pictures come on top.
@@ -93,9 +106,10 @@ ExitStatus print_forecast(const ValidateOptions& options, const CommonOptions& c
   const fem::Forecast solve = fem::forecast(scene, options.solve.settings, run);
   const mesh::ElementMesh mesh = fem::elements_of(scene, options.solve.settings);
   const Questions questions = questions_of(scene, mesh, measure::sensor_points(scene), options, run.seed);
-  const double seconds = tracer_for(options).forecast(scene, questions.asked, run);
+  const std::optional<double> seconds = tracing_seconds(scene, questions, options, run);
   results::Record record = forecast_record(solve);
-  record.add("measurements", static_cast<std::uint64_t>(questions.asked.size())).add("tracing_seconds", seconds);
+  record.add("measurements", static_cast<std::uint64_t>(questions.asked.size()));
+  if (seconds) record.add("tracing_seconds", *seconds);
   std::printf("%s\n", common.json ? results::json_text(record).c_str()
                                   : (describe(solve) + "; then " + tracing_text(questions, options, seconds)).c_str());
   return success;
@@ -105,12 +119,11 @@ ExitStatus print_forecast(const ValidateOptions& options, const CommonOptions& c
 std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOptions& options,
                                     const CommonOptions& common, Run& run) try {
   const Questions questions = questions_of(solved.scene, solved.solution.mesh, solved.points, options, run.seed);
-  const PathTracer tracer = tracer_for(options);
   if (!common.json && !common.quiet)
     std::printf("\n%s\n",
-                tracing_text(questions, options, tracer.forecast(solved.scene, questions.asked, run)).c_str());
+                tracing_text(questions, options, tracing_seconds(solved.scene, questions, options, run)).c_str());
   std::fflush(stdout);
-  return judge(solved, questions, tracer, run);
+  return judge(solved, questions, *tracer_for(options), run);
 } catch (const core::Interrupted&) {
   write_summary(solved, options.solve, common, run);
   throw;

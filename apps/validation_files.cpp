@@ -90,6 +90,7 @@ results::Record write_records(const SolvedScene& solved, std::span<const Judged>
   results::Record record = results::certificate_record(certificate, judged, solved.scene.channels);
   record.add("run", summary_record(solved, options.solve, common, run))
       .add("accuracy", options.accuracy)
+      .add("integrator", options.integrator)
       .add("stopped", run.stop.stop_requested());
   results::write_json(options.solve.out / "validation.json", record);
   write_summary(solved, options.solve, common, run);

@@ -22,10 +22,10 @@ std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
 
 const std::vector<IntegratorEntry>& known_integrators() {
   static const std::vector<IntegratorEntry> all{
-      {"path", "paths from what is measured, lights found by both ways", make<PathTracer, PathTracerSettings>},
-      {"bidirectional", "walks from both ends, joined in all ways",
+      {"path", "paths from what is measured, lights found by both ways", false, make<PathTracer, PathTracerSettings>},
+      {"bidirectional", "walks from both ends, joined in all ways", false,
        make<BidirectionalTracer, BidirectionalTracerSettings>},
-      {"light", "paths from lights, all measurements by the same ones", make<LightTracer, LightTracerSettings>},
+      {"light", "paths from lights, all measurements by the same ones", true, make<LightTracer, LightTracerSettings>},
   };
   return all;
 }
@@ -36,13 +36,17 @@ std::vector<std::string> integrator_names() {
   return names;
 }
 
-std::unique_ptr<measure::Method> make_integrator(const std::string& name, const IntegratorSettings& settings) {
+const IntegratorEntry& integrator_entry(const std::string& name) {
   std::string known;
   for (const IntegratorEntry& each : known_integrators()) {
-    if (each.name == name) return each.make(settings);
+    if (each.name == name) return each;
     known += (known.empty() ? "" : ", ") + each.name;
   }
   throw core::InputError("integrator '" + name + "'", "one of " + known + " expected");
+}
+
+std::unique_ptr<measure::Method> make_integrator(const std::string& name, const IntegratorSettings& settings) {
+  return integrator_entry(name).make(settings);
 }
 
 }  // namespace interflect::montecarlo

@@ -19,10 +19,13 @@ struct IntegratorSettings {
 
 struct IntegratorEntry {
   std::string name, summary;
+  bool shares_paths;  ///< a path serves all that is asked: `samples` are of all together
   std::unique_ptr<measure::Method> (*make)(const IntegratorSettings& settings);
 };
 const std::vector<IntegratorEntry>& known_integrators();
 std::vector<std::string> integrator_names();
+/// @throws core::InputError  with the names known
+const IntegratorEntry& integrator_entry(const std::string& name);
 
 /// @throws core::InputError  with the names known
 std::unique_ptr<measure::Method> make_integrator(const std::string& name, const IntegratorSettings& settings);

@@ -36,10 +36,6 @@ SamplingTarget target_of(const PathTracerSettings& settings, const PathEstimator
           std::min(fewest_samples, settings.max_samples), settings.max_samples};
 }
 
-double weighed_standard_error(const scene::Scene& scene, const Estimate& e) {
-  return std::isfinite(e.weighed_standard_error) ? e.weighed_standard_error : scene.weigh(e.standard_error);
-}
-
 /// One line where measurements ended at the cap and not at their target.
 void warn_of_cap(const scene::Scene& scene, const SamplingTarget& target,
                  std::span<const MeasurementSampler> measurements, std::span<const Estimate> found) {

@@ -1,5 +1,7 @@
 #include "montecarlo/tally.h"
 
+#include <cmath>
+
 #include "core/format.h"
 #include "core/log.h"
 
@@ -32,6 +34,11 @@ Estimate Tally::estimate(const Spectrum& largest) const {
     found.claim = Claim::none;
   }
   return found;
+}
+
+double weighed_standard_error(const scene::Scene& scene, const Estimate& estimate) {
+  return std::isfinite(estimate.weighed_standard_error) ? estimate.weighed_standard_error
+                                                        : scene.weigh(estimate.standard_error);
 }
 
 void warn_of_bugs(const Tally& tally, const char* who, std::size_t measurement, std::uint64_t seed) {

@@ -2,6 +2,7 @@
 
 #include "core/estimate.h"
 #include "core/moments.h"
+#include "scene/scene.h"
 
 namespace interflect::montecarlo {
 
@@ -22,6 +23,9 @@ struct Tally {
   /// the error: infinite, and no claim.
   Estimate estimate(const Spectrum& largest) const;
 };
+
+/// Of the scene's weighted value: as it was measured, else an upper bound by its channels'.
+double weighed_standard_error(const scene::Scene& scene, const Estimate& estimate);
 
 /// One line where samples were not finite, with the key of the first.
 void warn_of_bugs(const Tally& tally, const char* who, std::size_t measurement, std::uint64_t seed);

@@ -35,8 +35,8 @@ TEST(Program, says_what_it_is) {
 }
 
 TEST(Program, each_command_has_help_with_an_example) {
-  for (const char* command : {"solve", "validate", "render", "trace", "view-factors", "compare-form-factors", "solvers",
-                              "compare-solvers", "shoot", "dim", "exchange", "info", "check"}) {
+  for (const char* command : {"solve", "validate", "render", "trace", "compare", "view-factors", "compare-form-factors",
+                              "solvers", "compare-solvers", "shoot", "dim", "exchange", "info", "check"}) {
     const Outcome help = interflect({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_TRUE(contains(help.out, "Example:\n  interflect " + std::string(command))) << help.out;

@@ -1,0 +1,282 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "apps/camera_pictures.h"
+#include "apps/commands.h"
+#include "apps/read_scene.h"
+#include "apps/scene_questions.h"
+#include "apps/table.h"
+#include "core/error.h"
+#include "core/format.h"
+#include "core/log.h"
+#include "montecarlo/integrator_comparison.h"
+#include "montecarlo/tally.h"
+#include "results/atomic_file.h"
+#include "results/comparison_panels.h"
+#include "results/csv.h"
+#include "results/image_file.h"
+#include "results/output_directory.h"
+#include "results/record.h"
+#include "validation/agreement.h"
+#include "validation/statistics.h"
+
+namespace interflect::apps {
+namespace {
+
+using montecarlo::IntegratorComparison;
+using montecarlo::IntegratorPair;
+using montecarlo::IntegratorTrial;
+using validation::Agreement;
+
+constexpr double alpha = 0.01;            ///< that chance alone makes any comparison of a run stand out
+constexpr int most_coarse_pixels = 12;    ///< a row or column, that are held against each other
+constexpr double difference_scale = 0.1;  ///< relative difference at full colour
+
+/// What is asked, of one kind.
+struct Kind {
+  std::string name;
+  std::vector<std::string> names;
+  std::vector<measure::Measurement> asked;
+};
+struct Compared {
+  Kind kind;
+  IntegratorComparison comparison;
+  std::vector<Agreement> agreements;  ///< by pair
+};
+
+/// The same view by so few pixels that each may be known well.
+scene::Camera coarse(const scene::Camera& camera) {
+  scene::Camera few = camera;
+  const double part = std::min(1.0, double{most_coarse_pixels} / std::max(camera.width, camera.height));
+  few.width = std::max(1, static_cast<int>(std::lround(part * camera.width)));
+  few.height = std::max(1, static_cast<int>(std::lround(part * camera.height)));
+  return few;
+}
+
+/// @param camera  a coarse one, if there is one
+std::vector<Kind> kinds_of(const scene::Scene& scene, std::optional<scene::CameraId> camera) {
+  const SceneQuestions questions = questions_about(scene);
+  std::vector<Kind> kinds(3);
+  kinds[0] = {"surfaces", {}, questions.on_sides};
+  measure::Flux all;
+  for (std::size_t k = 0; k < questions.sides.size(); ++k) {
+    kinds[0].names.push_back(name_of(scene, questions.sides[k]));
+    for (const auto& patch : std::get<measure::Flux>(questions.on_sides[k]).through) all.through.push_back(patch);
+  }
+  kinds[0].names.emplace_back("all surfaces");  // a part that is lost everywhere shows here sooner than in any one
+  kinds[0].asked.emplace_back(std::move(all));
+  kinds[1] = {"sensors", {}, questions.at_points};
+  for (const measure::SensorPoint& point : questions.points)
+    kinds[1].names.push_back(core::format("%s[%d]", point.sensor.c_str(), point.index));
+  kinds[2].name = "pixels";
+  if (camera)
+    for (int y = 0; y < scene.camera(*camera).height; ++y)
+      for (int x = 0; x < scene.camera(*camera).width; ++x) {
+        kinds[2].names.push_back(core::format("(%d, %d)", x, y));
+        kinds[2].asked.emplace_back(measure::PixelRadiance{*camera, x, y});
+      }
+  std::erase_if(kinds, [](const Kind& kind) { return kind.asked.empty(); });
+  return kinds;
+}
+
+std::string pair_name(const Compared& of, const IntegratorPair& pair) {
+  return of.comparison.trials[pair.a].integrator + " - " + of.comparison.trials[pair.b].integrator;
+}
+
+bool all_agree(const std::vector<Compared>& all) {
+  return std::all_of(all.begin(), all.end(), [](const Compared& of) {
+    return std::all_of(of.agreements.begin(), of.agreements.end(), [](const Agreement& a) { return a.agrees(); });
+  });
+}
+
+std::string efficiency_table(const scene::Scene& scene, const std::vector<Compared>& all) {
+  Table table({"measured", "integrator", "samples", "processor s", "error %", "efficiency 1/s", "but paths"});
+  for (const Compared& of : all)
+    for (const IntegratorTrial& trial : of.comparison.trials) {
+      if (!trial.refused.empty()) continue;
+      std::uint64_t samples = 0;
+      for (const Estimate& each : trial.found) samples = std::max(samples, each.samples);
+      const double efficiency = trial.efficiency(scene);
+      table.add({of.kind.name, trial.integrator, core::format_count(samples),
+                 core::format("%.3g", trial.processor_seconds),
+                 core::format("%.2g", 100 / std::sqrt(efficiency * trial.processor_seconds)),
+                 core::format("%.3g", efficiency), trial.missed});
+    }
+  return table.text();
+}
+
+std::string agreement_table(const std::vector<Compared>& all, double z_max) {
+  Table table({"measured", "held against each other", "comparisons", "largest z", "allowed", "beyond", "worst"});
+  for (const Compared& of : all)
+    for (std::size_t p = 0; p < of.agreements.size(); ++p) {
+      const Agreement& a = of.agreements[p];
+      table.add({of.kind.name, pair_name(of, of.comparison.pairs[p]), core::format_count(a.comparisons),
+                 core::format("%.2f", a.largest_z), core::format("%.2f", z_max), core::format_count(a.beyond),
+                 of.kind.names[a.worst]});
+    }
+  return table.text();
+}
+
+std::string refusals(const std::vector<Compared>& all) {
+  std::string text;
+  for (const Compared& of : all)
+    for (const IntegratorTrial& trial : of.comparison.trials)
+      if (!trial.refused.empty())
+        text += trial.integrator + " does not answer " + of.kind.name + ": " + trial.refused + "\n";
+  return text;
+}
+
+std::string csv_of(const scene::Scene& scene, const std::vector<Compared>& all) {
+  results::Csv csv;
+  for (const char* heading :
+       {"kind", "name", "integrator", "paths", "samples", "value", "standard_error", "error_bound"})
+    csv.text(heading);
+  csv.headings("value", scene.channel_count()).headings("standard_error", scene.channel_count()).end_line();
+  for (const Compared& of : all)
+    for (const IntegratorTrial& trial : of.comparison.trials)
+      for (std::size_t m = 0; m < trial.found.size(); ++m) {
+        const Estimate& e = trial.found[m];
+        csv.text(of.kind.name).text(of.kind.names[m]).text(trial.integrator).text(trial.paths.expression());
+        csv.integer(static_cast<long long>(e.samples)).number(scene.weigh(e.value));
+        csv.number(montecarlo::weighed_standard_error(scene, e)).number(scene.weigh(e.error_bound));
+        csv.numbers(e.value, scene.channel_count()).numbers(e.standard_error, scene.channel_count()).end_line();
+      }
+  return csv.str();
+}
+
+results::Record record_of(const scene::Scene& scene, const std::vector<Compared>& all, const CompareOptions& options,
+                          double z_max, bool stopped) {
+  results::Record::List kinds;
+  for (const Compared& of : all) {
+    results::Record::List trials, pairs;
+    for (const IntegratorTrial& t : of.comparison.trials) {
+      results::Record trial;
+      trial.add("integrator", t.integrator).add("paths", t.paths.expression()).add("missed", t.missed);
+      if (!t.refused.empty()) trial.add("refused", t.refused);
+      if (t.refused.empty()) trial.add("processor_seconds", t.processor_seconds).add("efficiency", t.efficiency(scene));
+      trials.push_back(std::move(trial));
+    }
+    for (std::size_t p = 0; p < of.agreements.size(); ++p) {
+      const Agreement& a = of.agreements[p];
+      pairs.push_back(results::Record()
+                          .add("pair", pair_name(of, of.comparison.pairs[p]))
+                          .add("paths", of.comparison.pairs[p].common.expression())
+                          .add("comparisons", a.comparisons)
+                          .add("largest_z", a.largest_z)
+                          .add("beyond", a.beyond)
+                          .add("worst", of.kind.names[a.worst]));
+    }
+    kinds.push_back(results::Record()
+                        .add("measured", of.kind.name)
+                        .add("measurements", of.kind.asked.size())
+                        .add("integrators", std::move(trials))
+                        .add("pairs", std::move(pairs)));
+  }
+  results::Record record;
+  record.add("scene", options.scene.string()).add("target", options.target).add("paths", options.paths);
+  return record.add("agree", all_agree(all)).add("z_max", z_max).add("stopped", stopped).add("kinds", std::move(kinds));
+}
+
+/// NAME.exr and NAME.png of each, and what differs from the first.
+void write_pictures(const scene::Scene& scene, scene::CameraId camera, const std::vector<std::string>& names,
+                    const CompareOptions& options, Run& run) {
+  const scene::Camera& view = scene.camera(camera);
+  const auto pixels = static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height);
+  std::vector<std::pair<std::string, CameraPicture>> drawn;
+  for (const std::string& name : names) {
+    montecarlo::IntegratorSettings settings;
+    const auto samples = static_cast<std::uint64_t>(options.samples);
+    settings.samples = montecarlo::integrator_entry(name).shares_paths ? samples * pixels : samples;
+    settings.intersector = options.intersector;
+    settings.paths = measure::PathClasses::of(options.paths);
+    try {
+      drawn.emplace_back(name, picture_of(*montecarlo::make_integrator(name, settings), scene, camera, run));
+    } catch (const core::InputError& error) {
+      core::log::warning("no picture by " + name + ": " + error.what());
+      continue;
+    }
+    const CameraPicture& picture = drawn.back().second;
+    results::write_image(options.out / (name + ".exr"), with_errors(picture.radiance, picture.error));
+    results::write_image(options.out / (name + ".png"), results::as_rgb(scene, picture.radiance));
+    if (drawn.size() < 2) continue;
+    const auto& [first, of_first] = drawn.front();
+    core::Image noise = picture.error;
+    for (std::size_t k = 0; k < noise.data.size(); ++k)
+      noise.data[k] = std::hypot(noise.data[k], of_first.error.data[k]) / static_cast<float>(normal_95);
+    results::write_png(
+        options.out / core::format("difference_%s_%s.png", name.c_str(), first.c_str()),
+        results::comparison_panels(scene, picture.radiance, of_first.radiance, noise, difference_scale).difference);
+  }
+}
+
+std::vector<Compared> compared(const scene::Scene& scene, const std::vector<Kind>& kinds,
+                               const std::vector<std::string>& names, const CompareOptions& options, Run& run) {
+  montecarlo::IntegratorSettings settings;
+  settings.target = options.target;
+  settings.intersector = options.intersector;
+  settings.paths = measure::PathClasses::of(options.paths);
+  std::vector<Compared> all;
+  try {
+    for (const Kind& kind : kinds) {
+      all.push_back({kind, compare_integrators(scene, kind.asked, names, settings, run), {}});
+    }
+  } catch (const core::Interrupted&) {
+    if (all.empty()) throw;
+    core::log::warning("stopped: " + kinds[all.size()].name + " were not compared");
+  }
+  return all;
+}
+
+/// @return  the largest z that chance allows among all comparisons
+double judge(const scene::Scene& scene, std::vector<Compared>& all) {
+  std::size_t comparisons = 0;
+  for (const Compared& of : all)
+    comparisons += of.comparison.pairs.size() * validation::comparisons_of(scene, of.kind.asked.size());
+  const double z_max = validation::sidak_z_max(alpha, std::max<std::size_t>(1, comparisons));
+  for (Compared& of : all)
+    for (const IntegratorPair& pair : of.comparison.pairs)
+      of.agreements.push_back(validation::agreement(scene, pair.of_a, pair.of_b, z_max));
+  return z_max;
+}
+
+}  // namespace
+
+ExitStatus compare(const CompareOptions& options, const CommonOptions& common, Run& run) {
+  measure::PathClasses::of(options.paths);  // before the work
+  scene::Scene scene = read_and_note(options.scene);
+  std::optional<scene::CameraId> camera, few;
+  if (!scene.cameras.empty() || !options.camera.empty()) {
+    camera = camera_named(scene, options.camera);
+    few = scene::CameraId{static_cast<std::uint32_t>(scene.cameras.size())};
+    scene.cameras.push_back(coarse(scene.camera(*camera)));
+  }
+  const std::vector<std::string> names =
+      options.integrators.empty() ? montecarlo::integrator_names() : options.integrators;
+  const results::OutputDirectory out(options.out);
+  std::vector<Compared> all = compared(scene, kinds_of(scene, few), names, options, run);
+  const double z_max = judge(scene, all);
+  const auto write_record = [&] {
+    results::write_json(options.out / "compare.json", record_of(scene, all, options, z_max, run.stop.stop_requested()));
+  };
+  results::write_atomically(options.out / "compare.csv", csv_of(scene, all));
+  write_record();
+  const bool talk = !common.json && !common.quiet;
+  if (talk)
+    std::printf("%s\n%s%s%s\n", efficiency_table(scene, all).c_str(), agreement_table(all, z_max).c_str(),
+                refusals(all).c_str(), all_agree(all) ? "all agree" : "THEY DO NOT AGREE");
+  std::fflush(stdout);
+  try {
+    if (options.pictures && camera) write_pictures(scene, *camera, names, options, run);
+  } catch (const core::Interrupted&) {
+    core::log::warning("stopped: not every picture was drawn");
+  }
+  if (run.stop.stop_requested()) write_record();
+  if (common.json)
+    std::printf("%s\n", results::json_text(record_of(scene, all, options, z_max, run.stop.stop_requested())).c_str());
+  if (talk) std::printf("written to %s\n", options.out.string().c_str());
+  return all_agree(all) && !run.stop.stop_requested() ? success : not_met;
+}
+
+}  // namespace interflect::apps

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/run.h"
+#include "measure/method.h"
+#include "montecarlo/integrators.h"
+
+namespace interflect::montecarlo {
+
+/// What an integrator found of a list of measurements of one kind.
+struct IntegratorTrial {
+  std::string integrator;
+  std::string refused;         ///< why it does not answer; empty: it does
+  std::string missed;          ///< one of the paths that it was not asked for, since it misses them; empty: none
+  measure::PathClasses paths;  ///< that were asked for
+  std::vector<Estimate> found;
+  double processor_seconds = 0;  ///< of all threads, pilots and all
+
+  /// 1 / (relative variance x processor time) [1/s]: mean of (standard error / value)² over the measurements whose
+  /// weighed value is not 0, in the scene's weights.  Twice the samples leave it as it is.
+  double efficiency(const scene::Scene& scene) const;
+};
+
+/// Two of them on the paths that both find.
+struct IntegratorPair {
+  std::size_t a, b;
+  measure::PathClasses common;
+  std::vector<Estimate> of_a, of_b;
+};
+
+struct IntegratorComparison {
+  std::vector<IntegratorTrial> trials;  ///< in the order of the names
+  std::vector<IntegratorPair> pairs;    ///< of those that answered, and have paths in common
+};
+
+/// Runs each of them on what it finds of `settings.paths`, and those pairs once more whose paths differ in this scene.
+/// @param asked  of one kind: patches and fluxes, points, or pixels
+/// @throws core::Interrupted  if one has nothing for some measurement when the run is stopped
+IntegratorComparison compare_integrators(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                                         const std::vector<std::string>& names, const IntegratorSettings& settings,
+                                         Run& run);
+
+}  // namespace interflect::montecarlo
