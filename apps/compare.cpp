@@ -5,6 +5,7 @@
 
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
+#include "apps/pictures.h"
 #include "apps/read_scene.h"
 #include "apps/scene_questions.h"
 #include "apps/table.h"
@@ -179,7 +180,19 @@ results::Record record_of(const scene::Scene& scene, const std::vector<Compared>
   return record.add("agree", all_agree(all)).add("z_max", z_max).add("stopped", stopped).add("kinds", std::move(kinds));
 }
 
-/// NAME.exr and NAME.png of each, and what differs from the first.
+std::string compared_file(const std::string& a, const std::string& b) {
+  return core::format("compared_%s_%s.png", a.c_str(), b.c_str());
+}
+
+/// What an earlier run left under names that this one does not write would look like a part of it.
+void remove_leftovers(const std::filesystem::path& folder) {
+  for (const std::string& a : montecarlo::integrator_names()) {
+    for (const char* extension : {".exr", ".png"}) std::filesystem::remove(folder / (a + extension));
+    for (const std::string& b : montecarlo::integrator_names()) std::filesystem::remove(folder / compared_file(a, b));
+  }
+}
+
+/// NAME.exr and NAME.png of each, and what differs from the first beside both.
 void write_pictures(const scene::Scene& scene, scene::CameraId camera, const std::vector<std::string>& names,
                     const CompareOptions& options, Run& run) {
   const scene::Camera& view = scene.camera(camera);
@@ -205,9 +218,13 @@ void write_pictures(const scene::Scene& scene, scene::CameraId camera, const std
     core::Image noise = picture.error;
     for (std::size_t k = 0; k < noise.data.size(); ++k)
       noise.data[k] = std::hypot(noise.data[k], of_first.error.data[k]) / static_cast<float>(normal_95);
-    results::write_png(
-        options.out / core::format("difference_%s_%s.png", name.c_str(), first.c_str()),
-        results::comparison_panels(scene, picture.radiance, of_first.radiance, noise, difference_scale).difference);
+    const auto panels = results::comparison_panels(scene, picture.radiance, of_first.radiance, noise, difference_scale);
+    results::write_png(options.out / compared_file(name, first),
+                       beside_each_other(panels,
+                                         {name + core::format(", %d samples a pixel", options.samples), first,
+                                          core::format("(%s - %s) / mean, white within 3 standard errors", name.c_str(),
+                                                       first.c_str())},
+                                         difference_scale));
   }
 }
 
@@ -255,6 +272,7 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
   const std::vector<std::string> names =
       options.integrators.empty() ? montecarlo::integrator_names() : options.integrators;
   const results::OutputDirectory out(options.out);
+  remove_leftovers(options.out);
   std::vector<Compared> all = compared(scene, kinds_of(scene, few), names, options, run);
   const double z_max = judge(scene, all);
   const auto write_record = [&] {

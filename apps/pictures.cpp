@@ -16,16 +16,18 @@ namespace {
 
 constexpr double difference_scale = 0.1;  ///< relative difference at full colour
 
-core::Image beside_each_other(const results::ComparisonPanels& panels, [[maybe_unused]] std::uint64_t samples) {
+}  // namespace
+
+core::Image beside_each_other(const results::ComparisonPanels& panels,
+                              [[maybe_unused]] const std::array<std::string, 3>& titles,
+                              [[maybe_unused]] double full_scale) {
 #ifdef INTERFLECT_WITH_VTK
-  return visual::comparison_picture(panels, samples, difference_scale);
+  return visual::comparison_picture(panels, titles, full_scale);
 #else
   constexpr int gap = 8;  // pixels
   return core::side_by_side({panels.fem, panels.traced, panels.difference}, gap);
 #endif
 }
-
-}  // namespace
 
 std::string picture_file(const std::string& name, std::size_t camera) {
   return camera == 0 ? name + ".png" : core::format("%s_%zu.png", name.c_str(), camera + 1);
@@ -44,7 +46,12 @@ void write_comparisons(const SolvedScene& solved, const ValidateOptions& options
         montecarlo::render(solved.scene, {c}, samples, run, options.solve.settings.intersector);
     const auto panels =
         results::comparison_panels(solved.scene, fem, traced.radiance, traced.standard_error, difference_scale);
-    results::write_png(options.solve.out / picture_file("validation", c), beside_each_other(panels, traced.samples));
+    results::write_png(options.solve.out / picture_file("validation", c),
+                       beside_each_other(panels,
+                                         {"radiosity, element by element",
+                                          "path traced, " + core::format_count(traced.samples) + " samples a pixel",
+                                          "(radiosity - path traced) / mean, white within 3 standard errors"},
+                                         difference_scale));
   }
 } catch (const core::Interrupted&) {
   core::log::warning("stopped: not every picture was drawn");

@@ -21,7 +21,7 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
               contains(outcome.out, "all agree"))
       << outcome.out;
   for (const char* name : {"compare.csv", "compare.json", "path.png", "path.exr", "light.png", "bidirectional.png",
-                           "difference_light_path.png", "difference_bidirectional_path.png"})
+                           "compared_light_path.png", "compared_bidirectional_path.png"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
   const json said = json::parse(read_file(folder / "out/compare.json"));
   EXPECT_TRUE(said.at("agree"));

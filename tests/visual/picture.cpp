@@ -305,7 +305,8 @@ TEST(ComparisonPicture, has_the_panels_as_they_are_with_words_over_them_and_a_le
     std::fill(image.data.begin(), image.data.end(), level);
     return image;
   };
-  const core::Image picture = comparison_picture({grey(0.25F), grey(0.5F), grey(0.75F)}, 64, 0.1);
+  const core::Image picture =
+      comparison_picture({grey(0.25F), grey(0.5F), grey(0.75F)}, {"radiosity", "path traced", "their difference"}, 0.1);
   Place at;
   const core::Image one = framed(grey(0), "x", nullptr, &at.left, &at.top);
   ASSERT_EQ(picture.height, one.height);
