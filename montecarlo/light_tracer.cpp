@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "core/random.h"
 #include "montecarlo/light/emission_picker.h"
 #include "montecarlo/measurable.h"
 #include "montecarlo/measured_patches.h"
@@ -17,6 +18,7 @@
 #include "montecarlo/sight.h"
 #include "montecarlo/splat_targets.h"
 #include "montecarlo/tally.h"
+#include "montecarlo/warp.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -353,12 +355,8 @@ void warn_of_cap(const Tracing& tracing, const scene::Scene& scene, std::span<co
                                     static_cast<unsigned long long>(tracing.paths())));
 }
 
-void require_valid(const LightTracerSettings& settings) {
-  if (settings.samples == 0 && !(settings.target > 0))
-    throw core::InputError("light tracing", "a target above 0 expected");
-  if (!(settings.target_floor >= 0)) throw core::InputError("light tracing", "a target floor of at least 0 expected");
-  if (settings.samples == 1 || settings.max_samples < 2)
-    throw core::InputError("light tracing", "at least 2 paths expected: one has no standard error");
+SamplingSettings sampling_of(const LightTracerSettings& s) {
+  return {s.samples, s.target, s.target_floor, s.max_samples};
 }
 
 }  // namespace
@@ -374,7 +372,7 @@ measure::Capabilities LightTracer::capabilities() const {
 
 std::vector<Estimate> LightTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                           Run& run) const {
-  require_valid(settings_);
+  require_valid(sampling_of(settings_), "light tracing");
   for (const measure::Measurement& each : asked) require_measurable(scene, each);
   require_found(*this, scene, asked, settings_.paths);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
@@ -382,9 +380,7 @@ std::vector<Estimate> LightTracer::answer(const scene::Scene& scene, std::span<c
   std::vector<Estimate> estimates(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
   if (paths.dark()) return estimates;
   const std::vector<std::size_t> of = answered(asked.size(), paths.targets());
-  const SamplingTarget target{
-      settings_.target, settings_.target * settings_.target_floor * mean_irradiance_scale(scene, paths.lights().flux()),
-      std::min(first_pilot, settings_.max_samples), settings_.max_samples};
+  const SamplingTarget target = target_of(sampling_of(settings_), scene, paths.lights().flux(), first_pilot);
   const std::uint64_t count = settings_.samples > 0 ? settings_.samples : planned(paths, scene, asked, of, target, run);
   const std::uint64_t seed = core::derived_seed(run.seed, "light tracer");
   Tracing tracing(paths, scene, asked, seed);

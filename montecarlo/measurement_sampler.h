@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "measure/measurement.h"
 #include "montecarlo/film/reconstruction_filter.h"
 #include "montecarlo/path_estimator.h"
+#include "montecarlo/receiver_sampler.h"
 #include "scene/film_map.h"
 
 namespace interflect::montecarlo {
@@ -33,19 +35,9 @@ class MeasurementSampler {
   double scale() const { return scale_; }
 
  private:
-  enum class Kind : std::uint8_t { area, point, pixel };
-  struct Region {
-    scene::SurfacePatch patch;
-    Vec3 normal;
-  };
-  void set_regions(std::span<const scene::SurfacePatch> patches);
-
-  Kind kind_ = Kind::area;
   double scale_ = 1;
-  std::vector<Region> regions_;  ///< area: where x lies
-  AliasTable pick_;              ///< among the regions, by area
-  Receiver point_{};
-  std::shared_ptr<const scene::FilmMap> film_;  ///< pixel: where it is
+  std::optional<ReceiverSampler> place_;        ///< of a patch, flux or point
+  std::shared_ptr<const scene::FilmMap> film_;  ///< of a pixel
   PixelOnFilm pixel_{};
 };
 

@@ -4,15 +4,10 @@
 #include "measure/path_classes.h"
 #include "montecarlo/bsdf/lambert.h"
 #include "montecarlo/path_letters.h"
+#include "montecarlo/receiver.h"
 #include "montecarlo/sight.h"
 
 namespace interflect::montecarlo {
-
-/// A place that light arrives at, from the hemisphere of `normal` (unit).  Rays leave it as they leave a surface
-/// (raycast::Ray), also where it is a point in free space: it may lie on a surface by chance.
-struct Receiver {
-  Vec3 position, normal;
-};
 
 /// One path from where light arrives, one unbiased estimate: the rendering equation [Kajiya 1986]
 ///

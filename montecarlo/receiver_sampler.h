@@ -5,7 +5,7 @@
 #include "core/random.h"
 #include "measure/measurement.h"
 #include "montecarlo/alias_table.h"
-#include "montecarlo/path_estimator.h"
+#include "montecarlo/receiver.h"
 
 namespace interflect::montecarlo {
 

@@ -3,12 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/run.h"
-#include "montecarlo/measurement_sampler.h"
 #include "montecarlo/tally.h"
 
 namespace interflect::montecarlo {
+
+/// Measurements that are sampled independently of each other, by whatever method: what is planned and added up here.
+class SampledMeasurements {
+ public:
+  virtual ~SampledMeasurements() = default;
+  virtual const scene::Scene& scene() const = 0;
+  virtual std::string name() const = 0;   ///< "path tracer": of messages, and of the seeds
+  virtual std::string doing() const = 0;  ///< "path tracing": of progress
+  virtual std::size_t size() const = 0;
+  /// What an irradiance of 1 everywhere would measure.
+  virtual double scale(std::size_t measurement) const = 0;
+  /// Of a measurement of scale 1, what a single sample finds at most, or nearly so.
+  virtual Spectrum largest_score() const = 0;
+  /// The samples first, first + 1, .. of a measurement, sample k by the numbers of (seed, stream, k).
+  /// @param samples  overwritten
+  virtual void sample(std::size_t measurement, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
+                      std::span<Spectrum> samples) const = 0;
+};
 
 /// Samples 0 .. counts[m] - 1 of every measurement m, sample k being keyed by (seed, m, k).
 ///
@@ -16,8 +35,8 @@ namespace interflect::montecarlo {
 /// merged in their order.  All measurements advance together: when the run is stopped, each has about the same part of
 /// its samples.
 /// @throws core::Interrupted  if it is stopped before every measurement has two samples
-std::vector<Tally> sample_all(std::span<const MeasurementSampler> measurements, std::span<const std::uint64_t> counts,
-                              const PathEstimator& paths, std::uint64_t seed, Run& run);
+std::vector<Tally> sample_all(const SampledMeasurements& measurements, std::span<const std::uint64_t> counts,
+                              std::uint64_t seed, Run& run);
 
 /// How exact the answers shall be.
 struct SamplingTarget {
@@ -31,22 +50,43 @@ struct SamplingTarget {
   }
 };
 
+struct SamplingSettings {
+  std::uint64_t samples;  ///< of each measurement; 0: as many as `target` asks for
+  double target;          ///< relative standard error of its weighted value
+  double target_floor;    ///< ... or relative to this part of the scene's mean irradiance, so that dark places end
+  std::uint64_t max_samples;
+};
+/// @throws core::InputError  of `who`, for settings out of range
+void require_valid(const SamplingSettings& settings, const std::string& who);
+/// @param flux  of all lights [W | lm]
+SamplingTarget target_of(const SamplingSettings& settings, const scene::Scene& scene, const Spectrum& flux,
+                         std::uint64_t fewest);
+
+/// Samples until a measurement is as well known as is asked for, from samples that are thrown away:
+///
+///   n = 1.5 s² / target²,   s² of their weighted values, target = SamplingTarget::standard_error;
+///   3 w / n = target        where all scored zero (rule of three, as in Tally::estimate).
+///
+/// The factor 1.5 covers the noise of s², so that nearly all measurements reach their target.
+/// @param largest_score  w, in the measurement's unit, weighed
+std::uint64_t samples_needed(const core::ScalarMoments& pilot, double scale, double largest_score,
+                             const SamplingTarget& target);
+
 struct SamplingPlan {
   std::vector<std::uint64_t> counts;  ///< samples per measurement
   std::uint64_t spent = 0;            ///< samples of the pilots
 };
 
 /// How many samples each measurement needs, from pilots that are thrown away: so the answer stays unbiased [Kirk and
-/// Arvo 1991].
-///
-///   n = 1.5 s² / target²,   s² of the pilot's weighted samples, target = SamplingTarget::standard_error;
-///   3 w / n = target        where all of the pilot scored zero (rule of three, as in Tally::estimate).
-///
-/// The first pilot has 1024 samples.  Where it asks for more than eight times as many, a second one of n / 8 samples
-/// (131 072 at most) decides: s² of few samples of a skewed distribution is too often far too small.  The factor 1.5
-/// covers what noise is left, so that nearly all measurements reach their target.
-SamplingPlan plan_samples(std::span<const MeasurementSampler> measurements, const PathEstimator& paths,
-                          const SamplingTarget& target, Run& run);
+/// Arvo 1991].  The first pilot has 1024 samples.  Where it asks for more than eight times as many, a second one of n / 8
+/// samples (131 072 at most) decides: s² of few samples of a skewed distribution is too often far too small.
+SamplingPlan plan_samples(const SampledMeasurements& measurements, const SamplingTarget& target, Run& run);
+
+/// The answers, planned where there is a target; what is not finite, and measurements that a cap ended, are warned of.
+/// @param flux  of all lights [W | lm]
+/// @throws core::Interrupted  as sample_all
+std::vector<Estimate> sampled_answers(const SampledMeasurements& measurements, const SamplingSettings& settings,
+                                      const Spectrum& flux, Run& run);
 
 /// Mean irradiance of all surfaces that can reflect if the scene were closed and well mixed: Phi / sum A (1 - rho), in
 /// weighted channels [lx | W/m²].  A scale, not an answer.

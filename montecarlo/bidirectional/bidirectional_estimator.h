@@ -6,8 +6,8 @@
 #include "montecarlo/bidirectional/walk.h"
 #include "montecarlo/bsdf/lambert.h"
 #include "montecarlo/light/emission_picker.h"
-#include "montecarlo/path_estimator.h"
 #include "montecarlo/path_letters.h"
+#include "montecarlo/receiver.h"
 #include "montecarlo/sight.h"
 #include "scene/film_map.h"
 
@@ -37,6 +37,8 @@ class BidirectionalEstimator {
   const scene::Scene& scene() const { return scene_; }
   const LightSet& lights() const { return lights_; }
   bool dark() const { return emissions_.empty(); }
+  /// As PathEstimator's: weights are at most 1.
+  Spectrum largest_score() const { return 2 * lights_.largest_find(); }
 
   /// Dimensions of `numbers` from blocks of its own on, that no walk from the eye comes to.
   void walk_from_light(core::RandomNumbers& numbers, LightWalk& walk) const;
