@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "apps/commands.h"
+#include "apps/optics_texts.h"
 #include "apps/read_scene.h"
 #include "apps/table.h"
 #include "core/format.h"
@@ -9,17 +10,6 @@
 
 namespace interflect::apps {
 namespace {
-
-/// "0.74" for a value that all channels share, "0.73 0.74 0.71" otherwise.
-std::string spectrum_text(const Spectrum& s, int channels) {
-  bool equal = true;
-  std::string text;
-  for (int c = 0; c < channels; ++c) {
-    equal = equal && s[c] == s[0];
-    text += (c > 0 ? " " : "") + core::format("%.4g", s[c]);
-  }
-  return equal ? core::format("%.4g", s[0]) : text;
-}
 
 const char* sides_text(scene::Sides sides) { return sides == scene::Sides::both ? "both" : "front"; }
 
@@ -66,10 +56,10 @@ std::string diffuse_text(const scene::Material& material, int channels) {
 
 std::string materials_text(const scene::Scene& scene) {
   const bool photometric = scene.quantity == scene::Quantity::photometric;
-  Table table({"material", "type", "reflectance", photometric ? "exitance lm/m2" : "exitance W/m2", "sides"});
+  Table table({"material", "reflectance", photometric ? "exitance lm/m2" : "exitance W/m2", "sides", "type"});
   for (const scene::Material& m : scene.materials)
-    table.add({m.name, type_of(m.finish), diffuse_text(m, scene.channel_count()),
-               spectrum_text(m.exitance, scene.channel_count()), sides_text(m.sides)});
+    table.add({m.name, diffuse_text(m, scene.channel_count()), spectrum_text(m.exitance, scene.channel_count()),
+               sides_text(m.sides), finish_text(m, scene.channel_count())});
   return table.text();
 }
 
@@ -86,7 +76,7 @@ void print_text(const scene::Scene& scene, const scene::Inspection& inspection) 
   std::printf("channels       %s\n", channels.c_str());
   std::printf("emitted flux   %.6g %s (%s)\n", scene.weigh(scene.emitted_flux()), scene.flux_unit(),
               spectrum_text(scene.emitted_flux(), scene.channel_count()).c_str());
-  std::printf("%s", emitters_text(scene).c_str());
+  std::printf("%s%s", emitters_text(scene).c_str(), lights_text(scene).c_str());
   std::printf("geometry       %s\n", closedness_text(inspection).c_str());
   std::printf("sensors        %zu\ncameras        %zu\n", scene.sensors.size(), scene.cameras.size());
   for (const scene::Camera& camera : scene.cameras)
@@ -109,6 +99,7 @@ results::Record record_of(const scene::Scene& scene, const scene::Inspection& in
     materials.push_back(results::Record()
                             .add("name", m.name)
                             .add("type", type_of(m.finish))
+                            .add("finish", finish_record(m, channels))
                             .add("reflectance", m.reflectance, channels)
                             .add("exitance", m.exitance, channels)
                             .add("sides", sides_text(m.sides)));
@@ -118,6 +109,7 @@ results::Record record_of(const scene::Scene& scene, const scene::Inspection& in
       .add("weights", scene.weights, channels)
       .add("surfaces", std::move(surfaces))
       .add("materials", std::move(materials))
+      .add("lights", light_records(scene))
       .add("box_min_m", results::Record::Numbers{low.x(), low.y(), low.z()})
       .add("box_max_m", results::Record::Numbers{high.x(), high.y(), high.z()})
       .add("emitted_flux", scene.emitted_flux(), channels)

@@ -8,8 +8,24 @@
 namespace interflect::apps {
 namespace {
 
-/// Of all that a path can meet: the file as it is written, and of what it names facets of meshes and a picture of the
-/// sky.
+/// What an MTL file says of a surface; other materials are in the scene file.
+void add_material(const scene::Material& m, int channels, results::Digest& digest) {
+  const auto add = [&](const Spectrum& s) {
+    for (int c = 0; c < channels; ++c) digest.add(s[c]);
+  };
+  add(m.reflectance);
+  digest.add(m.opacity);
+  digest.add(std::uint64_t{m.finish.index()});
+  if (const auto* mirror = std::get_if<scene::Mirror>(&m.finish)) add(mirror->reflectance);
+  if (const auto* glass = std::get_if<scene::Glass>(&m.finish)) digest.add(glass->index);
+  if (const auto* metal = std::get_if<scene::Metal>(&m.finish)) {
+    digest.add(metal->roughness);
+    if (const auto* reflectance = std::get_if<Spectrum>(&metal->reflects)) add(*reflectance);
+  }
+}
+
+/// Of all that a path can meet: the file as it is written, and of what it names facets and materials of meshes and a
+/// picture of the sky.
 std::string picture_digest(const scene::Scene& scene) {
   results::Digest digest;
   for (const char c : scene::io::read_bytes(scene.file, scene.file.string())) digest.add(static_cast<std::uint64_t>(c));
@@ -17,6 +33,7 @@ std::string picture_digest(const scene::Scene& scene) {
     digest.add(std::uint64_t{facet.surface.value});
     for (const Vec3& corner : facet.corner) digest.add(corner);
   }
+  for (const scene::Material& material : scene.materials) add_material(material, scene.channel_count(), digest);
   if (const auto* sky = std::get_if<scene::EnvironmentMap>(&scene.lights.sky))
     for (int row = 0; row < sky->rows(); ++row)
       for (int column = 0; column < sky->columns(); ++column)

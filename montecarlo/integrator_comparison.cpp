@@ -1,5 +1,6 @@
 #include "montecarlo/integrator_comparison.h"
 
+#include <cmath>
 #include <ctime>
 
 #include "core/error.h"
@@ -62,8 +63,9 @@ double IntegratorTrial::efficiency(const scene::Scene& scene) const {
   double variance = 0;
   int count = 0;
   for (const Estimate& each : found) {
-    const double value = scene.weigh(each.value), error = weighed_standard_error(scene, each);
+    const double value = scene.weigh(each.value);
     if (value == 0) continue;
+    const double error = std::hypot(weighed_standard_error(scene, each), scene.weigh(each.error_bound));
     variance += error * error / (value * value);
     ++count;
   }

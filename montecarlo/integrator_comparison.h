@@ -19,8 +19,8 @@ struct IntegratorTrial {
   std::vector<Estimate> found;
   double processor_seconds = 0;  ///< of all threads, pilots and all
 
-  /// 1 / (relative variance x processor time) [1/s]: mean of (standard error / value)² over the measurements whose
-  /// weighed value is not 0, in the scene's weights.  Twice the samples leave it as it is.
+  /// 1 / (relative error² x processor time) [1/s]: mean of (standard error² + bound²) / value² over the measurements
+  /// whose weighed value is not 0, in the scene's weights.  Twice the samples leave it as it is where there is no bias.
   double efficiency(const scene::Scene& scene) const;
 };
 

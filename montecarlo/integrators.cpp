@@ -4,6 +4,8 @@
 #include "montecarlo/bidirectional/bidirectional_tracer.h"
 #include "montecarlo/light_tracer.h"
 #include "montecarlo/path_tracer.h"
+#include "montecarlo/ray_tree/distributed.h"
+#include "montecarlo/ray_tree/whitted.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -26,6 +28,9 @@ const std::vector<IntegratorEntry>& known_integrators() {
       {"bidirectional", "walks from both ends, joined in all ways", false,
        make<BidirectionalTracer, BidirectionalTracerSettings>},
       {"light", "paths from lights, all measurements by the same ones", true, make<LightTracer, LightTracerSettings>},
+      {"distributed", "Cook's ray tracing: light that meets one diffuse surface at most", false,
+       make<Distributed, DistributedSettings>},
+      {"whitted", "the same without chance, and without glossy reflections", false, make<Whitted, WhittedSettings>},
   };
   return all;
 }

@@ -1,5 +1,7 @@
 #include "montecarlo/receiver_sampler.h"
 
+#include <algorithm>
+
 #include "montecarlo/warp.h"
 
 namespace interflect::montecarlo {
@@ -23,6 +25,16 @@ void ReceiverSampler::set_regions(std::span<const scene::SurfacePatch> patches) 
   }
   pick_ = AliasTable(areas);
   pdf_area_ = 1 / pick_.total();
+}
+
+Receiver ReceiverSampler::at(double u, double v) const {
+  if (regions_.empty()) return point_;
+  double left = u * pick_.total();
+  std::size_t region = 0;
+  for (; region + 1 < regions_.size() && left >= regions_[region].patch.area; ++region)
+    left -= regions_[region].patch.area;
+  const auto& [patch, normal] = regions_[region];
+  return {patch_point(patch, std::min(left / patch.area, 1 - 0x1p-53), v), normal};
 }
 
 Receiver ReceiverSampler::draw(core::RandomNumbers& numbers) const {

@@ -17,6 +17,8 @@ class ReceiverSampler {
 
   /// Dimensions: block 0, and 1 where there are several patches.
   Receiver draw(core::RandomNumbers& numbers) const;
+  /// The place of (u, v) in the unit square: of several patches u says which, and where on it.
+  Receiver at(double u, double v) const;
   /// Of that [1/m²]; 0 of a point.
   double pdf_area() const { return pdf_area_; }
 

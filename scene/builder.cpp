@@ -6,14 +6,15 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "scene/flattening.h"
+#include "scene/luminance.h"
 
 namespace interflect::scene {
 namespace {
 
 Spectrum default_weights(std::size_t channels) {
   Spectrum weights;
-  if (channels == 3) {  // luminance of linear sRGB, IEC 61966-2-1
-    weights[0] = 0.2126, weights[1] = 0.7152, weights[2] = 0.0722;
+  if (channels == 3) {
+    for (int c = 0; c < 3; ++c) weights[c] = srgb_luminance[static_cast<std::size_t>(c)];
     return weights;
   }
   for (std::size_t c = 0; c < channels; ++c) weights[static_cast<int>(c)] = 1.0 / static_cast<double>(channels);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/spectrum.h"
@@ -14,11 +15,25 @@ enum class Walk : std::uint8_t { from_eye, from_light };
 /// A direction drawn by a Bsdf.
 struct Scattered {
   Vec3 way;
-  Spectrum weight;         ///< f |cos| / p of it: what a path's throughput is multiplied by
-  double pdf_solid_angle;  ///< of `way` by all that is not delta [1/sr]; 0 where this is
-  bool delta;              ///< to a direction of its own: no other way of drawing would have found it
-  bool straight = false;   ///< through, and on as it came
-  double squeezed = 1;     ///< of the weight, by how much radiance changes as the square of the index does
+  Spectrum weight;             ///< f |cos| / p of it: what a path's throughput is multiplied by
+  double pdf_solid_angle = 0;  ///< of `way` by all that is not delta [1/sr]; 0 where this is
+  bool delta = false;          ///< to a direction of its own: no other way of drawing would have found it
+  bool straight = false;       ///< through, and on as it came
+  double squeezed = 1;         ///< of the weight, by how much radiance changes as the square of the index does
+};
+
+/// The delta parts of a place, each whole: what a tree of rays follows where a path draws one of them.
+class DeltaParts {
+ public:
+  void add(const Scattered& part) { parts_[count_++] = part; }
+  const Scattered* begin() const { return parts_.data(); }
+  const Scattered* end() const { return parts_.data() + count_; }
+  Scattered* begin() { return parts_.data(); }
+  Scattered* end() { return parts_.data() + count_; }
+
+ private:
+  std::array<Scattered, 4> parts_{};
+  std::size_t count_ = 0;
 };
 
 /// How a place of a surface scatters light.  Directions are unit, lead away from the surface, and are in a frame whose z
@@ -42,6 +57,8 @@ class Bsdf {
   /// @param u      uniform in [0, 1): which part, and the direction in it
   /// @return       nothing: the path ends, with nothing lost but what is absorbed
   virtual std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const = 0;
+  /// What `sample` draws of delta parts, on average.
+  virtual void delta_parts(const Vec3& /*known*/, Walk, DeltaParts&) const {}
   /// Whether some of what it does is delta, but for going straight on: light that takes that way cannot be joined here.
   virtual bool mirrors() const { return only_delta(); }
   /// What goes straight through of light that arrives from there.

@@ -25,6 +25,11 @@ class Mask final : public Bsdf {
     if (found) found->pdf_solid_angle *= opacity_;  // the weight is f / p of both
     return found;
   }
+  void delta_parts(const Vec3& known, Walk walk, DeltaParts& parts) const override {
+    if (of_) of_->delta_parts(known, walk, parts);
+    for (Scattered& each : parts) each.weight *= opacity_;
+    if (opacity_ < 1) parts.add({-known, Spectrum(1 - opacity_), 0, true, true});
+  }
   Spectrum straight(const Vec3& from) const override {
     return Spectrum(1 - opacity_) + (of_ ? opacity_ * of_->straight(from) : Spectrum::zero());
   }
@@ -52,6 +57,9 @@ class FrontOnly final : public Bsdf {
   }
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override {
     return known.z() > 0 ? of_->sample(known, u, walk) : std::nullopt;
+  }
+  void delta_parts(const Vec3& known, Walk walk, DeltaParts& parts) const override {
+    if (known.z() > 0) of_->delta_parts(known, walk, parts);
   }
   bool mirrors() const override { return of_->mirrors(); }
   bool glossy() const override { return of_->glossy(); }

@@ -37,4 +37,9 @@ std::optional<Scattered> Plastic::sample(const Vec3& known, const Vec3& u, Walk 
   return scattered(*this, known, way, walk);
 }
 
+void Plastic::delta_parts(const Vec3& known, Walk, DeltaParts& parts) const {
+  const double F = core::fresnel(std::abs(known.z()), eta_).mean();
+  parts.add({Vec3(-known.x(), -known.y(), known.z()), Spectrum(F), 0, true});
+}
+
 }  // namespace interflect::montecarlo

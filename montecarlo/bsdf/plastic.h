@@ -16,6 +16,7 @@ class Plastic final : public Bsdf {
   Spectrum f(const Vec3& from, const Vec3& to) const override;
   double pdf_solid_angle(const Vec3& known, const Vec3& drawn) const override;
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override;
+  void delta_parts(const Vec3& known, Walk walk, DeltaParts& parts) const override;
   bool mirrors() const override { return true; }
 
  private:

@@ -27,6 +27,9 @@ class Mirror final : public SmoothBsdf {
   std::optional<Scattered> sample(const Vec3& known, const Vec3&, Walk) const override {
     return to(mirrored(known), reflectance_);
   }
+  void delta_parts(const Vec3& known, Walk, DeltaParts& parts) const override {
+    parts.add(to(mirrored(known), reflectance_));
+  }
 
  private:
   Spectrum reflectance_;
@@ -38,6 +41,9 @@ class PolishedMetal final : public SmoothBsdf {
   explicit PolishedMetal(MetalFresnel fresnel) : fresnel_(std::move(fresnel)) {}
   std::optional<Scattered> sample(const Vec3& known, const Vec3&, Walk) const override {
     return to(mirrored(known), fresnel_(std::abs(known.z())));
+  }
+  void delta_parts(const Vec3& known, Walk, DeltaParts& parts) const override {
+    parts.add(to(mirrored(known), fresnel_(std::abs(known.z()))));
   }
 
  private:
@@ -54,15 +60,24 @@ class Dielectric final : public SmoothBsdf {
   explicit Dielectric(double eta) : eta_(eta) {}
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk walk) const override {
     const double eta = known.z() > 0 ? eta_ : 1 / eta_, F = core::fresnel(std::abs(known.z()), eta).mean();
-    if (u[0] < F) return to(mirrored(known), Spectrum(1));
-    const std::optional<Vec3> way = core::refracted(known, Vec3::UnitZ(), eta);
-    if (!way) return std::nullopt;
-    Scattered refracted = to(*way, Spectrum(1));
-    if (walk == Walk::from_eye) refracted.squeezed = 1 / (eta * eta), refracted.weight *= refracted.squeezed;
-    return refracted;
+    return u[0] < F ? to(mirrored(known), Spectrum(1)) : refracted(known, eta, walk);
+  }
+  void delta_parts(const Vec3& known, Walk walk, DeltaParts& parts) const override {
+    const double eta = known.z() > 0 ? eta_ : 1 / eta_, F = core::fresnel(std::abs(known.z()), eta).mean();
+    parts.add(to(mirrored(known), Spectrum(F)));
+    if (F == 1) return;
+    if (auto passes = refracted(known, eta, walk)) passes->weight *= 1 - F, parts.add(*passes);
   }
 
  private:
+  static std::optional<Scattered> refracted(const Vec3& known, double eta, Walk walk) {
+    const std::optional<Vec3> way = core::refracted(known, Vec3::UnitZ(), eta);
+    if (!way) return std::nullopt;
+    Scattered passes = to(*way, Spectrum(1));
+    if (walk == Walk::from_eye) passes.squeezed = 1 / (eta * eta), passes.weight *= passes.squeezed;
+    return passes;
+  }
+
   double eta_;
 };
 
@@ -80,9 +95,13 @@ class ThinPane final : public SmoothBsdf {
     if (R.is_zero() && T.is_zero()) return std::nullopt;
     const double reflects = R.max() / (R.max() + T.max());
     if (u[0] < reflects) return to(mirrored(known), R / reflects);
-    Scattered through = to(-known, T / (1 - reflects));
-    through.straight = true;
-    return through;
+    return through(known, T / (1 - reflects));
+  }
+  void delta_parts(const Vec3& known, Walk, DeltaParts& parts) const override {
+    Spectrum R, T;
+    set_parts(std::abs(known.z()), R, T);
+    if (!R.is_zero()) parts.add(to(mirrored(known), R));
+    if (!T.is_zero()) parts.add(through(known, T));
   }
   Spectrum straight(const Vec3& from) const override {
     Spectrum R, T;
@@ -92,6 +111,11 @@ class ThinPane final : public SmoothBsdf {
   bool lets_pass() const override { return true; }
 
  private:
+  static Scattered through(const Vec3& known, const Spectrum& weight) {
+    Scattered on = to(-known, weight);
+    on.straight = true;
+    return on;
+  }
   void set_parts(double cosine, Spectrum& R, Spectrum& T) const {
     for (int c = 0; c < Spectrum::capacity; ++c) {
       const core::Pane::Parts parts = of_[static_cast<std::size_t>(c)](cosine);

@@ -31,6 +31,24 @@ MeshRepair read_repair(const JsonNode& entry, const LengthUnit& unit) {
   return repair;
 }
 
+/// What becomes of a mesh's materials that are not mapped.
+enum class Unmapped : std::uint8_t { error, mtl, material };
+
+Unmapped unmapped_kind(const JsonNode& entry) {
+  if (!entry.has("unmapped") || entry.at("unmapped").string() == "error") return Unmapped::error;
+  return entry.at("unmapped").string() == "mtl" ? Unmapped::mtl : Unmapped::material;
+}
+
+void require_unmapped(const JsonNode& entry, const MaterialLibrary& materials) {
+  const Unmapped kind = unmapped_kind(entry);
+  if (kind == Unmapped::error) return;
+  const JsonNode node = entry.at("unmapped");
+  if (kind == Unmapped::material) return materials.require(node);
+  if (core::lower_case(std::filesystem::path(entry.at("file").string()).extension().string()) != ".obj")
+    node.fail("MTL files belong to OBJ files: a material of the scene is expected");
+  if (materials.has("mtl")) node.fail("the scene has a material 'mtl': is that meant, or the mesh's MTL files?");
+}
+
 }  // namespace
 
 void GeometryReader::read(const JsonNode& geometry) {
@@ -106,7 +124,7 @@ void GeometryReader::read_file(const JsonNode& entry) {
   place_vertices(mesh, placement, shown);
   if (repair.weld > 0 && repair.weld < finest_weld(mesh))
     entry.at("repair").at("weld").fail("a weld of less than 1e-15 of the coordinates is below their rounding");
-  const auto materials = map_materials(entry, mesh.materials, shown);
+  const auto materials = map_materials(entry, mesh, shown);
   auto& repairs = builder_.scene().repairs;
   for (const std::string& note : mesh.notes) repairs.push_back({shown, note});
   if (const std::size_t welded = weld_vertices(mesh, repair.weld); welded > 0)
@@ -117,27 +135,46 @@ void GeometryReader::read_file(const JsonNode& entry) {
   import_mesh(builder_, mesh, materials, repair, shown);
 }
 
-std::vector<MaterialId> GeometryReader::map_materials(const JsonNode& entry, const std::vector<std::string>& names,
+std::optional<MaterialId> GeometryReader::unmapped(const JsonNode& entry, const MeshFile& mesh, const std::string& name,
+                                                   const std::string& shown) {
+  switch (unmapped_kind(entry)) {
+    case Unmapped::error:
+      return std::nullopt;
+    case Unmapped::material:
+      return materials_.use(builder_, entry.at("unmapped"), Sides::both);
+    case Unmapped::mtl:
+      break;
+  }
+  std::vector<std::filesystem::path> files;
+  for (const std::string& named : mesh.material_files)
+    for (auto& file : mtl_files(std::filesystem::path(folder_ / entry.at("file").string()).parent_path(), named))
+      files.push_back(std::move(file));
+  return mtl_.use(builder_, files, name, shown);
+}
+
+std::vector<MaterialId> GeometryReader::map_materials(const JsonNode& entry, const MeshFile& mesh,
                                                       const std::string& shown) {
+  const std::vector<std::string>& names = mesh.materials;
   std::vector<MaterialId> out;
   std::string missing;
   const bool mapped = entry.has("materials");
-  const bool fallback = entry.has("unmapped") && entry.at("unmapped").string() != "error";
   // Every target is looked up, whether a face asks for it or not: a slip shall not wait for its face.
-  if (fallback) materials_.require(entry.at("unmapped"));
+  require_unmapped(entry, materials_);
   if (mapped)
     for (const auto& [name, target] : entry.at("materials").members()) materials_.require(target);
   for (const std::string& name : names) {
     if (mapped && entry.at("materials").has(name))
       out.push_back(materials_.use(builder_, entry.at("materials").at(name), Sides::both));
-    else if (fallback)
-      out.push_back(materials_.use(builder_, entry.at("unmapped"), Sides::both));
+    else if (const auto other = unmapped(entry, mesh, name, shown))
+      out.push_back(*other);
     else
       missing += (missing.empty() ? "'" : ", '") + shown_word(name) + "'";
   }
   if (!missing.empty())
-    entry.fail("materials of the file without one of the scene: " + missing +
+    entry.fail("materials of the file without one of the scene" +
+               std::string(unmapped_kind(entry) == Unmapped::mtl ? " or of its MTL files: " : ": ") + missing +
                " (map them in \"materials\", or name one as \"unmapped\")");
+  mtl_.say_left_out(builder_, shown);
   if (mapped)
     for (const auto& [name, target] : entry.at("materials").members())
       if (std::find(names.begin(), names.end(), name) == names.end())

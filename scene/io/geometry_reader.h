@@ -5,6 +5,8 @@
 #include "scene/builder.h"
 #include "scene/io/json_document.h"
 #include "scene/io/material_library.h"
+#include "scene/io/mesh_reader.h"
+#include "scene/io/mtl_library.h"
 #include "scene/io/placement.h"
 
 namespace interflect::scene::io {
@@ -24,11 +26,14 @@ class GeometryReader {
   void read_polygon(const JsonNode& entry, const std::string& name);
   void read_box(const JsonNode& entry, const std::string& name);
   void read_file(const JsonNode& entry);
-  std::vector<MaterialId> map_materials(const JsonNode& entry, const std::vector<std::string>& names,
-                                        const std::string& shown);
+  std::vector<MaterialId> map_materials(const JsonNode& entry, const MeshFile& mesh, const std::string& shown);
+  /// What the key "unmapped" gives a name that is not mapped.
+  std::optional<MaterialId> unmapped(const JsonNode& entry, const MeshFile& mesh, const std::string& name,
+                                     const std::string& shown);
 
   SceneBuilder& builder_;
   MaterialLibrary& materials_;
+  MtlLibrary mtl_;
   LengthUnit unit_;
   std::filesystem::path folder_;
   std::string shown_;

@@ -7,6 +7,7 @@
 #include "core/format.h"
 #include "scene/io/checked_spectrum.h"
 #include "scene/io/text_file.h"
+#include "scene/luminance.h"
 
 namespace interflect::scene::io {
 namespace {
@@ -117,8 +118,7 @@ Sky read_uniform_sky(const JsonNode& node, const Scene& scene) {
 Spectrum spectrum_of(const core::Image& picture, int x, int y, const std::vector<int>& channel, bool luminance) {
   Spectrum out;
   if (luminance) {
-    out[0] = 0.2126 * double{picture.at(x, y, channel[0])} + 0.7152 * double{picture.at(x, y, channel[1])} +
-             0.0722 * double{picture.at(x, y, channel[2])};
+    for (std::size_t c = 0; c < 3; ++c) out[0] += srgb_luminance[c] * double{picture.at(x, y, channel[c])};
     return out;
   }
   for (std::size_t c = 0; c < channel.size(); ++c) out[static_cast<int>(c)] = double{picture.at(x, y, channel[c])};

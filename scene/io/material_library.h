@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ class MaterialLibrary {
 
   /// Refuses the name of an unknown material where it stands; a known one stays unused.
   void require(const JsonNode& name) const { index_of(name); }
+
+  bool has(const std::string& name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
 
   /// @param name      where it is named: an unknown one is refused there
   /// @param fallback  sides of a material that does not say

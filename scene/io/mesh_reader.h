@@ -21,6 +21,7 @@ struct MeshFile {
   std::vector<std::uint32_t> indices;
   std::vector<Face> faces;
   std::vector<std::string> groups, materials;  ///< their names, "" where the file gives none
+  std::vector<std::string> material_files;     ///< what each "mtllib" of an OBJ names
   bool single_precision = false;               ///< the format or its reader carries floats
   std::vector<std::string> notes;              ///< what was left out: "12 points and lines ignored"
 };

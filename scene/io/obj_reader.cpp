@@ -4,7 +4,6 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <span>
@@ -61,6 +60,24 @@ std::size_t lone_face_key(std::string_view text) {
   return std::string_view::npos;
 }
 
+/// What each line that begins with "mtllib" says behind that.
+std::vector<std::string> material_files(std::string_view text) {
+  constexpr std::string_view key = "mtllib", blanks = " \t\r";
+  std::vector<std::string> out;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    std::string_view line = text.substr(start, end - start);
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    start = end + 1;
+    if (!line.starts_with(key)) continue;
+    line.remove_prefix(key.size());
+    const std::size_t first = line.find_first_not_of(blanks);
+    if (first == 0 || first == std::string_view::npos) continue;
+    out.emplace_back(line.substr(first, line.find_last_not_of(blanks) + 1 - first));
+  }
+  return out;
+}
+
 std::string too_few(std::size_t corners) { return core::format("a face has three corners or more, not %zu", corners); }
 
 class ObjBuilder {
@@ -89,6 +106,7 @@ class ObjBuilder {
     if (lone != std::string::npos) fail_at(lone, too_few(0));
     mesh_.groups = groups_.names();
     mesh_.materials = materials_.names();
+    mesh_.material_files = material_files(text_);
     return std::move(mesh_);
   }
 
@@ -117,13 +135,10 @@ class ObjBuilder {
     const std::size_t end = std::min(rest.find_first_of(" \t", start), rest.size());
     std::string_view word = rest.substr(start, end - start);
     rest.remove_prefix(end);
-    const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-    double value = 0;
-    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || stop != digits.data() + digits.size())
-      fail("'" + shown_word(word) + "' is not a coordinate");
-    if (!std::isfinite(value)) fail("the coordinate '" + shown_word(word) + "' is not finite");
-    return value;
+    const std::optional<double> value = number_of(word);
+    if (!value) fail("'" + shown_word(word) + "' is not a coordinate");
+    if (!std::isfinite(*value)) fail("the coordinate '" + shown_word(word) + "' is not finite");
+    return *value;
   }
 
   void vertex() {

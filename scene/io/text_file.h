@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ std::string_view without_byte_order_mark(std::string_view text);
 
 /// "'reflectence' is not known: did you mean 'reflectance'?", or the list of what is known where nothing is near.
 std::string unknown_word(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
+
+/// The number that a word is, correctly rounded, with or without a plus before it; nothing where it is none.
+std::optional<double> number_of(std::string_view word);
 
 /// Text from a file on one line, without control characters.
 std::string one_line(std::string_view text);

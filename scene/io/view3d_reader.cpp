@@ -119,14 +119,10 @@ class View3dReader {
   }
 
   double number(const char* what) {
-    std::string_view digits = word(what);
-    const std::string_view given = digits;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    double value = 0;
-    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || stop != digits.data() + digits.size() || !std::isfinite(value))
-      fail("'" + shown_word(given) + "' is not " + what);
-    return value;
+    const std::string_view given = word(what);
+    const std::optional<double> value = number_of(given);
+    if (!value || !std::isfinite(*value)) fail("'" + shown_word(given) + "' is not " + what);
+    return *value;
   }
 
   void read_format() {

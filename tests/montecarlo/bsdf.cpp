@@ -303,5 +303,31 @@ TEST(Dielectric, changes_radiance_as_the_square_of_the_index) {
   }
 }
 
+// What a tree follows of delta parts is what paths draw of them on average, way by way.
+TEST(DeltaParts, are_the_means_of_what_is_drawn) {
+  for (const Named& kind : all_kinds())
+    for (const Walk walk : {Walk::from_eye, Walk::from_light})
+      for (const Vec3& known : {Vec3(.6, 0, .8), Vec3(.48, .6, .64), Vec3(0, .96, .28), Vec3(.6, 0, -.8)}) {
+        DeltaParts parts;
+        kind.bsdf->delta_parts(known, walk, parts);
+        std::vector<Spectrum> drawn(static_cast<std::size_t>(parts.end() - parts.begin()));
+        constexpr int n = 20'000;
+        for (int k = 0; k < n; ++k) {
+          const auto on = kind.bsdf->sample(known, {(k + .5) / n, .3, .4}, walk);
+          if (!on || !on->delta) continue;
+          const auto* part = std::find_if(parts.begin(), parts.end(), [&](const Scattered& each) {
+            return (each.way - on->way).norm() < 1e-12 && each.straight == on->straight;
+          });
+          ASSERT_NE(part, parts.end()) << kind.name;
+          drawn[static_cast<std::size_t>(part - parts.begin())] += on->weight / n;
+        }
+        std::size_t p = 0;
+        for (const Scattered& part : parts) {
+          for (int c = 0; c < 2; ++c) EXPECT_NEAR(drawn[p][c], part.weight[c], 2e-4) << kind.name << " part " << p;
+          ++p;
+        }
+      }
+}
+
 }  // namespace
 }  // namespace interflect::montecarlo

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "scene/io/mesh_import.h"
 #include "scene/io/mesh_reader.h"
+#include "scene/reader.h"
 
 namespace interflect::scene {
 namespace {
@@ -111,6 +112,67 @@ TEST_F(Corpus, a_hole_that_a_double_edge_joins_stays_open) {
   const Scene scene = load(root_ / "messy/assimp-testmodels/OBJ/concave_polygon.obj");
   EXPECT_TRUE(scene.repairs.empty());
   EXPECT_EQ(scene.facets.size(), 64u);
+}
+
+/// A mesh with the materials of its MTL files; what is left out of them is said in warnings.
+class CorpusMaterials : public Corpus {
+ protected:
+  Scene load_with_mtl(const std::string& folder, const std::string& file, const std::string& mapped = "{}") const {
+    return parse_scene(R"({"format": "interflect/scene/1", "units": "m", "channels": ["r", "g", "b"],
+                           "materials": {"lamp": {"reflectance": 0.7, "exitance": 1}},
+                           "geometry": [{"file": ")" +
+                           file + R"(", "unmapped": "mtl", "materials": )" + mapped + "}]}",
+                       "s.json", root_ / folder);
+  }
+  static const Material& named(const Scene& scene, const std::string& name) {
+    return *std::find_if(scene.materials.begin(), scene.materials.end(),
+                         [&](const Material& m) { return m.name == name; });
+  }
+  static std::string left_out(const Scene& scene) {
+    for (const Note& note : scene.warnings)
+      if (note.message.find("of MTL files") != std::string::npos) return note.message;
+    return "";
+  }
+};
+
+TEST_F(CorpusMaterials, mcguires_mirror_is_one) {
+  const Scene scene = load_with_mtl("cornell-mcguire", "CornellBox-Mirror.obj", R"({"light": "lamp"})");
+  const Metal& mirror = std::get<Metal>(named(scene, "tallBox").finish);
+  EXPECT_EQ(std::get<Spectrum>(mirror.reflects)[1], .95);
+  EXPECT_EQ(mirror.roughness, 0);
+  EXPECT_TRUE(named(scene, "shortBox").is_diffuse());
+  EXPECT_EQ(left_out(scene), "1 material of MTL files without what is not understood: tallBox (Kd)");
+}
+
+// Their bodies of glass keep a tenth of the light that passes (Tf): no clear ones.
+TEST_F(CorpusMaterials, mcguires_grey_glass_is_not_taken_for_clear) {
+  const Scene scene = load_with_mtl("cornell-mcguire", "CornellBox-Sphere.obj", R"({"light": "lamp"})");
+  EXPECT_TRUE(std::holds_alternative<Metal>(named(scene, "leftSphere").finish));
+  EXPECT_TRUE(named(scene, "rightSphere").is_diffuse());
+  const std::string said = left_out(scene);
+  EXPECT_NE(said.find("rightSphere (illum 7)"), std::string::npos) << said;
+}
+
+TEST_F(CorpusMaterials, every_mtl_file_is_read_or_refused_in_one_line) {
+  std::size_t read = 0, refused = 0;
+  for (const char* folder : {"cornell-mcguire", "holodeck-mcguire", "messy"})
+    for (const auto& file : files(folder)) {
+      if (file.extension() != ".obj") continue;
+      SCOPED_TRACE(file.string());
+      try {
+        for (const Material& m : load_with_mtl(file.parent_path().string(), file.filename().string()).materials) {
+          for (int c = 0; c < 3; ++c) EXPECT_GE(m.reflectance[c], 0);
+          EXPECT_LT(m.reflectance.max(), 1);
+          EXPECT_TRUE(m.exitance.is_zero());
+        }
+        ++read;
+      } catch (const core::InputError& error) {
+        ++refused;
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      }
+    }
+  EXPECT_GT(read, 5u);
+  EXPECT_GT(refused, 10u);
 }
 
 }  // namespace

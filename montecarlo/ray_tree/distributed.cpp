@@ -1,0 +1,191 @@
+#include "montecarlo/ray_tree/distributed.h"
+
+#include <vector>
+
+#include "montecarlo/bsdf/lambert.h"
+#include "montecarlo/measurable.h"
+#include "montecarlo/path_letters.h"
+#include "montecarlo/ray_tree/ray_tree.h"
+#include "montecarlo/receiver_sampler.h"
+#include "montecarlo/roulette.h"
+#include "montecarlo/sampling.h"
+#include "montecarlo/scene_paths.h"
+#include "scene/film_map.h"
+
+namespace interflect::montecarlo {
+namespace {
+
+constexpr double always_followed = 0.1;  ///< from this weight on
+/// Dimensions: place or film and lens, then a vertex after the other: light 3, glossy direction 3, survival of up to six
+/// rays.
+constexpr std::uint32_t film_block = 0, lens_block = 1, first_vertex_block = 2, blocks_per_vertex = 6;
+
+SamplingSettings sampling_of(const DistributedSettings& s) {
+  return {s.samples, s.target, s.target_floor, s.max_samples};
+}
+
+class Trees final : public SampledMeasurements {
+ public:
+  Trees(const scene::Scene& scene, const raycast::RayCaster& caster, const measure::PathClasses& paths,
+        std::span<const measure::Measurement> asked)
+      : tree_(scene, caster), paths_(paths) {
+    for (const measure::Measurement& each : asked) measured_.emplace_back(scene, each);
+  }
+
+  bool dark() const { return tree_.lights().empty(); }
+  const LightSet& lights() const { return tree_.lights(); }
+  const scene::Scene& scene() const override { return tree_.scene(); }
+  std::string name() const override { return "distributed ray tracer"; }
+  std::string doing() const override { return "distributed ray tracing"; }
+  std::size_t size() const override { return measured_.size(); }
+  double scale(std::size_t m) const override { return measured_[m].scale; }
+  Spectrum largest_score() const override { return 2 * tree_.lights().largest_find(); }
+  void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
+              std::span<Spectrum> samples) const override {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      core::RandomNumbers numbers(seed, stream, first + k);
+      samples[k] = sample(measured_[m], numbers);
+    }
+  }
+
+ private:
+  struct Measured {
+    Measured(const scene::Scene& scene, const measure::Measurement& asked) : scale(scale_of(asked)) {
+      if (const auto* pixel = std::get_if<measure::PixelRadiance>(&asked)) {
+        film.emplace(scene.camera(pixel->camera));
+        corner = Vec2(pixel->x, pixel->y);
+      } else {
+        place.emplace(asked);
+      }
+    }
+    double scale;
+    std::optional<ReceiverSampler> place;
+    std::optional<scene::FilmMap> film;
+    Vec2 corner = Vec2::Zero();
+  };
+  struct Branch {
+    raycast::Ray ray{};
+    Spectrum weight{1};
+    double squeezed = 1;
+    measure::PathClasses::FromEye letters = 0;
+    Place from{Vec3::Zero(), Vec3::Zero()};  ///< where a glossy direction was drawn
+    double pdf_solid_angle = 0;              ///< of that; 0: there is none but this
+  };
+
+  Spectrum sample(const Measured& of, core::RandomNumbers& numbers) const {
+    const auto letters = paths_.after(paths_.before_eye(), measure::PathLetter::eye);
+    if (of.place) {
+      const Receiver at = of.place->draw(numbers);
+      numbers.jump(first_vertex_block);
+      return of.scale * pi *
+             lit({at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_}, letters, false, numbers);
+    }
+    numbers.jump(film_block);
+    const double a = numbers.next(), b = numbers.next();
+    numbers.jump(lens_block);
+    const double r = numbers.next(), turn = numbers.next();
+    const auto ray = of.film->ray(of.corner + Vec2(a, b), scene::uniform_disk(r, turn));
+    if (!ray) return Spectrum::zero();
+    Branch root;
+    root.ray = {ray->origin, ray->direction};
+    root.letters = letters;
+    return seen(root, numbers);
+  }
+
+  Spectrum seen(const Branch& root, core::RandomNumbers& numbers) const {
+    Spectrum found{};
+    std::vector<Branch> branches{root};
+    for (std::uint32_t block = first_vertex_block; !branches.empty(); block += blocks_per_vertex) {
+      const Branch branch = branches.back();
+      branches.pop_back();
+      const RayTree::Met met = tree_.met(branch.ray);
+      for (const auto& each : met.shining) found += branch.weight * shone(branch, each);
+      if (!met.at) continue;
+      numbers.jump(block);
+      const auto with_letter = paths_.after(branch.letters, letter_of(*met.at->bsdf));
+      const bool glossy = met.at->bsdf->glossy();
+      found += branch.weight * lit(*met.at, with_letter, glossy, numbers);
+      go_on(branch, *met.at, glossy, with_letter, numbers, branches);
+    }
+    return found;
+  }
+
+  /// All delta ways, and one that a glossy surface draws.
+  void go_on(const Branch& branch, const TreeVertex& at, bool glossy, measure::PathClasses::FromEye with_letter,
+             core::RandomNumbers& numbers, std::vector<Branch>& branches) const {
+    const double lobe = numbers.next(), u = numbers.next(), v = numbers.next();
+    const auto follow = [&](const Scattered& part, measure::PathClasses::FromEye letters, double pdf) {
+      Branch next{
+          at.ray(part.way), branch.weight * part.weight, branch.squeezed * part.squeezed, letters, at.place(), pdf};
+      if (part.straight) next.from = branch.from, next.pdf_solid_angle = branch.pdf_solid_angle;
+      const double survives = going_on(next.weight.max() / (next.squeezed * always_followed));
+      if (measure::PathClasses::hopeless(letters) || !(numbers.next() < survives)) return;
+      next.weight /= survives;
+      branches.push_back(next);
+    };
+    DeltaParts parts;
+    at.bsdf->delta_parts(at.to_eye, Walk::from_eye, parts);
+    for (const Scattered& part : parts)
+      follow(part, part.straight ? branch.letters : paths_.after(branch.letters, measure::PathLetter::specular), 0);
+    if (!glossy) return;
+    const auto drawn = at.bsdf->sample(at.to_eye, {lobe, u, v}, Walk::from_eye);
+    if (drawn && !drawn->delta) follow(*drawn, with_letter, drawn->pdf_solid_angle);
+  }
+
+  bool counts(measure::PathClasses::FromEye letters, std::optional<std::uint32_t> light) const {
+    const auto letter = light ? letter_of(tree_.lights()[*light]) : measure::PathLetter::area;
+    return measure::PathClasses::complete(paths_.after(letters, letter));
+  }
+
+  Spectrum shone(const Branch& branch, const RayTree::Met::Shining& by) const {
+    if (!counts(branch.letters, by.light)) return Spectrum::zero();
+    if (branch.pdf_solid_angle == 0 || !by.light) return by.radiance;
+    const double by_light =
+        tree_.lights().probability(*by.light, branch.from) *
+        tree_.lights()[*by.light].pdf_arriving_solid_angle(branch.from, branch.ray.direction, by.position);
+    return by.radiance * (branch.pdf_solid_angle / (branch.pdf_solid_angle + by_light));
+  }
+
+  /// By one light that is picked.
+  Spectrum lit(const TreeVertex& at, measure::PathClasses::FromEye letters, bool rays_find_it_too,
+               core::RandomNumbers& numbers) const {
+    const double pick = numbers.next(), u = numbers.next(), v = numbers.next();
+    if (at.bsdf->only_delta() || dark()) return Spectrum::zero();
+    const auto [light, probability] = tree_.lights().pick(at.place(), pick);
+    if (!counts(letters, light)) return Spectrum::zero();
+    const auto found = tree_.lit(at, light, u, v);
+    if (!found) return Spectrum::zero();
+    if (found->by_light == 0) return found->scattered / probability;
+    return found->scattered / (probability * found->by_light + (rays_find_it_too ? found->by_bsdf : 0));
+  }
+
+  RayTree tree_;
+  const measure::PathClasses& paths_;
+  std::vector<Measured> measured_;
+  Lambert receiver_{Spectrum(1)};
+};
+
+}  // namespace
+
+measure::Capabilities Distributed::capabilities() const {
+  const auto direct = measure::PathClasses::of("LE");
+  return {.unbiased = true,
+          .consistent = true,
+          .to_patches = direct,
+          .to_points = direct,
+          .to_pixels = measure::PathClasses::of("(A|F)(D|G)?(S|G)*E|PE|P(D|G)(S|G)*E")};
+}
+
+std::vector<Estimate> Distributed::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                                          Run& run) const {
+  require_valid(sampling_of(settings_), "distributed ray tracer");
+  for (const measure::Measurement& each : asked) require_measurable(scene, each);
+  require_found(*this, scene, asked, settings_.paths);
+  const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
+  const Trees trees(scene, *caster, settings_.paths, asked);
+  if (trees.dark())
+    return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  return sampled_answers(trees, sampling_of(settings_), trees.lights().flux(), run);
+}
+
+}  // namespace interflect::montecarlo

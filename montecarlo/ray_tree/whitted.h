@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "measure/method.h"
+#include "raycast/ray_caster.h"
+
+namespace interflect::montecarlo {
+
+struct WhittedSettings {
+  std::uint64_t samples = 0;  ///< points of the quadrature, a measurement; 0: until `target` seems met
+  double target = 0.01;       ///< of that bound, relative to the weighted value
+  double target_floor = 0.1;  ///< ... or relative to this part of the scene's mean irradiance
+  std::uint64_t max_samples = 1u << 15;
+  std::string intersector = "embree";
+  measure::PathClasses paths = measure::PathClasses::all();  ///< that are asked for: it has no others than its own
+  double least_weight = 1e-4;                                ///< a ray that counts less is not followed
+};
+
+/// Whitted's ray tracing [1980]: from a pixel, rays go on at mirrors and smooth boundaries, both reflected and refracted,
+/// each with its Fresnel weight, until they meet a surface that scatters; that is lit by all lights directly.  What is
+/// measured elsewhere is lit directly.  It finds
+///
+///   L(D|G)?S*E  of pixels,   LE  of patches, fluxes and points.
+///
+/// Deterministic: points of the film, or of a patch, and of the lights are those of a fixed sequence, frac(s + k a_j) with
+/// a_j = g^-(j+1) and g the root of g^5 = g + 1 [Roberts 2018], in eight copies, each with shifts s of its own.  Its mean
+/// differs from the integral as log N / N where that is smooth.  Standard errors are 0; the error bound, a claim that is
+/// estimated, is how far the mean of any copy is from that of all, and what was not followed times the brightest found.
+class Whitted final : public measure::Method {
+ public:
+  explicit Whitted(WhittedSettings settings = {}) : settings_(std::move(settings)) {}
+  std::string name() const override { return "whitted"; }
+  measure::Capabilities capabilities() const override;
+
+  /// @throws core::Interrupted  if it is stopped
+  /// @throws core::InputError   for measurements that cannot be taken, paths that it misses, or settings out of range
+  std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
+                               Run& run) const override;
+
+ private:
+  WhittedSettings settings_;
+};
+
+}  // namespace interflect::montecarlo
