@@ -94,7 +94,7 @@ void add_render(CLI::App& app, Command& chosen) {
 void add_trace(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<TraceOptions>();
   CLI::App* command = add_command<TraceOptions>(
-      app, "trace", "A picture by path tracing",
+      app, "trace", "A picture by Monte Carlo",
       core::format("interflect trace %s --camera front --spp 256 -o cornell.exr", example_scene), trace, options,
       chosen);
   add_scene(*command, options->scene);
@@ -120,13 +120,15 @@ void add_trace(CLI::App& app, Command& chosen) {
       "--resume", options->resume,
       "Go on from the checkpoint that an earlier run left beside its picture, every minute and when it was "
       "stopped");
-  CLI::Option* estimates =
-      command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
-          ->check(named("a folder"));
-  command->add_option("--integrator", options->integrator, "How those estimates are found: docs/compare.md")
+  command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
+      ->check(named("a folder"));
+  command->add_option("--integrator", options->integrator, "How picture and estimates are traced (docs/compare.md)")
       ->check(CLI::IsMember(montecarlo::integrator_names()))
-      ->needs(estimates)
       ->capture_default_str();
+  command
+      ->add_option("--target", options->target,
+                   "End the picture where relative standard errors of pixels are below, such as 5%; --spp at most")
+      ->transform(fraction());
   add_accuracy(*command, options->accuracy, "those estimates");
   add_paths(*command, options->paths);
   add_intersector(*command, options->intersector, "Ray caster");

@@ -63,8 +63,9 @@ struct TraceOptions {
   std::string filter = "box", sequence = "independent";
   bool resume = false;              ///< from the checkpoint of an earlier run
   std::filesystem::path estimates;  ///< folder for surfaces.csv and sensors.csv; empty: none
-  std::string integrator = "path";  ///< of the estimates
-  std::string paths = "L.*E";       ///< that count
+  std::string integrator = "path";
+  std::string paths = "L.*E";  ///< that count
+  double target = 0;           ///< of the picture; 0: none
   double accuracy = 0.01;
   std::string intersector = "embree";
 };

@@ -44,7 +44,8 @@ std::string picture_digest(const scene::Scene& scene) {
 }  // namespace
 
 montecarlo::RenderSettings render_settings(const TraceOptions& options) {
-  return {static_cast<std::uint64_t>(options.samples), options.filter, options.sequence};
+  return {static_cast<std::uint64_t>(options.samples), options.filter,     options.sequence,
+          measure::PathClasses::of(options.paths),     options.integrator, options.target};
 }
 
 PictureCheckpoint::PictureCheckpoint(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
@@ -58,6 +59,8 @@ PictureCheckpoint::PictureCheckpoint(const scene::Scene& scene, scene::CameraId 
                                         .add("seed", common.seed)
                                         .add("filter", options.filter)
                                         .add("sequence", options.sequence)
+                                        .add("integrator", options.integrator)
+                                        .add("paths", options.paths)
                                         .add("intersector", options.intersector));
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -63,8 +64,34 @@ std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOp
   return options.estimates;
 }
 
+bool grows(const TraceOptions& options) {
+  return options.integrator == "path" || options.integrator == "bidirectional";
+}
+
+/// All pixels asked for at once: by those whose pictures do not grow.
+montecarlo::Rendering asked_for(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
+                                Run& run) {
+  if (options.resume || options.filter != "box" || options.sequence != "independent" || options.target > 0)
+    throw core::InputError("--integrator " + options.integrator,
+                           "pictures by it take no --resume, --filter, --sequence or --target");
+  const scene::Camera& view = scene.camera(camera);
+  const auto pixels = static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height),
+             samples = static_cast<std::uint64_t>(options.samples);
+  montecarlo::IntegratorSettings settings;
+  settings.samples = montecarlo::integrator_entry(options.integrator).shares_paths ? samples * pixels : samples;
+  settings.intersector = options.intersector;
+  settings.paths = measure::PathClasses::of(options.paths);
+  const CameraPicture picture =
+      picture_of(*montecarlo::make_integrator(options.integrator, settings), scene, camera, run);
+  montecarlo::Rendering found{picture.radiance, picture.error, {view.width, view.height, {"samples"}}, samples};
+  for (float& each : found.standard_error.data) each /= static_cast<float>(normal_95);
+  std::fill(found.samples_a_pixel.data.begin(), found.samples_a_pixel.data.end(), static_cast<float>(samples));
+  return found;
+}
+
 montecarlo::Rendering rendered(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
                                const PictureCheckpoint& checkpoint, Run& run) {
+  if (!grows(options)) return asked_for(scene, camera, options, run);
   montecarlo::FilmState state;
   montecarlo::RenderCheckpoints checkpoints;
   if (options.resume) {
@@ -112,7 +139,7 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   const PictureCheckpoint checkpoint(scene, camera, options, common);
   const montecarlo::Rendering rendering = rendered(scene, camera, options, checkpoint, run);
   Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, {}, false};
-  if (run.stop.stop_requested()) traced.checkpoint = checkpoint.file();
+  if (run.stop.stop_requested() && grows(options)) traced.checkpoint = checkpoint.file();
   results::write_image(
       traced.exr.replace_extension(".exr"),
       with_channels(with_errors(rendering.radiance, rendering.standard_error), rendering.samples_a_pixel));

@@ -5,17 +5,20 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
-#include "core/sample_sequence.h"
 #include "core/seconds_since.h"
+#include "montecarlo/bidirectional/bidirectional_tracer.h"
+#include "montecarlo/bidirectional/sweep_exposure.h"
 #include "montecarlo/film/film.h"
 #include "montecarlo/film/reconstruction_filter.h"
-#include "montecarlo/measurement_sampler.h"
+#include "montecarlo/path_exposure.h"
 #include "montecarlo/path_tracer.h"
 #include "montecarlo/scene_paths.h"
+#include "montecarlo/tally.h"
 #include "scene/film_map.h"
 
 namespace interflect::montecarlo {
@@ -23,19 +26,37 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Index pixels_per_block = 256;
-constexpr std::uint64_t first_pass = 4;    ///< samples a pixel
-constexpr std::size_t given_numbers = 36;  ///< of a sequence: film 2, lens 2, 8 a vertex
+constexpr std::uint64_t first_look = 64;
 
-bool independent(const RenderSettings& settings) { return settings.sequence == "independent"; }
+/// Those that expose films.
+struct PainterEntry {
+  std::string integrator;
+  std::unique_ptr<measure::Method> method;  ///< for what it finds
+  std::unique_ptr<Exposure> (*make)(const scene::Scene&, const scene::Camera&, const RenderSettings&,
+                                    const ReconstructionFilter&, const raycast::RayCaster&, Run&);
+};
+const std::array<PainterEntry, 2>& painters() {
+  static const std::array<PainterEntry, 2> all{
+      PainterEntry{"path", std::make_unique<PathTracer>(), path_exposure},
+      PainterEntry{"bidirectional", std::make_unique<BidirectionalTracer>(), sweep_exposure}};
+  return all;
+}
+const PainterEntry& painter_named(const std::string& integrator) {
+  for (const PainterEntry& each : painters())
+    if (each.integrator == integrator) return each;
+  throw core::InputError("render", "pictures that grow are made by path or bidirectional, not by " + integrator);
+}
 
 void require_valid(const scene::Scene& scene, scene::CameraId id, const RenderSettings& settings) {
   if (id.value >= scene.cameras.size()) throw core::InputError("render", "a camera of the scene expected");
   scene::require_valid(scene.camera(id));
   const measure::Measurement pixel = measure::PixelRadiance{id, 0, 0};
-  require_found(PathTracer(), scene, {&pixel, 1}, settings.paths);
+  require_found(*painter_named(settings.integrator).method, scene, {&pixel, 1}, settings.paths);
+  if (!(settings.target >= 0)) throw core::InputError("render", "a target of at least 0 expected");
+  if (settings.integrator != "path" && !settings.independent())
+    throw core::InputError("render", "numbers of a sequence are for path tracing alone");
   if (settings.samples == 0) throw core::InputError("render", "at least one sample a pixel expected");
-  if (!independent(settings) && settings.samples % sequence_batches != 0)
+  if (!settings.independent() && settings.samples % sequence_batches != 0)
     throw core::InputError("render", core::format("samples of the sequence '%s' come in %d randomisations, which say "
                                                   "how large errors are: a multiple of %d a pixel expected, not %llu",
                                                   settings.sequence.c_str(), sequence_batches, sequence_batches,
@@ -47,35 +68,19 @@ std::size_t pixels_of(const scene::Camera& camera) {
 }
 
 Film empty_film(const scene::Scene& scene, const scene::Camera& camera, const RenderSettings& settings) {
-  return {pixels_of(camera), scene.channel_count(), independent(settings) ? 0 : sequence_batches};
+  return {pixels_of(camera), scene.channel_count(), settings.independent() ? 0 : sequence_batches};
 }
-
-/// How many pixels' samples at once: so many that a stop, or a checkpoint, need not wait for long.  Nothing but time
-/// depends on it.
-class Pace {
- public:
-  std::uint64_t portion() const { return portion_; }
-  void took(std::uint64_t samples, double seconds) {
-    const double wished = static_cast<double>(samples) * wished_seconds / std::max(seconds, 1e-6);
-    portion_ = static_cast<std::uint64_t>(std::clamp(wished, 4096.0, 4 * static_cast<double>(portion_)));
-  }
-
- private:
-  static constexpr double wished_seconds = 2;
-  std::uint64_t portion_ = 1 << 16;
-};
 
 class Painter {
  public:
   Painter(const scene::Scene& scene, scene::CameraId id, const RenderSettings& settings, Run& run,
           const raycast::RayCaster& caster, const RenderCheckpoints& checkpoints)
-      : settings_(settings),
+      : scene_(scene),
+        settings_(settings),
         camera_(scene.camera(id)),
         map_(camera_),
         filter_(make_filter(settings.filter)),
-        sequence_(core::make_sequence(settings.sequence, core::derived_seed(run.seed, "path tracer sequences"))),
-        paths_(scene, caster, settings.paths),
-        seed_(core::derived_seed(run.seed, "path tracer pixels")),
+        exposure_(painter_named(settings.integrator).make(scene, camera_, settings, *filter_, caster, run)),
         run_(run),
         checkpoints_(checkpoints),
         film_(empty_film(scene, camera_, settings)) {
@@ -92,7 +97,14 @@ class Painter {
     for (std::size_t p = 0; p < film_.pixels(); ++p) before += film_.samples(p);
     core::Progress::Stage stage(run_.progress, "rendering " + camera_.name, settings_.samples * film_.pixels());
     stage.advance(before);
-    for (std::uint64_t done = film_.fewest_samples(); done < settings_.samples && !stopped();) done = pass(done, stage);
+    const auto after_some = [&] {
+      if (checkpoints_.keep && core::seconds_since(saved_) >= checkpoints_.seconds_between) keep();
+    };
+    for (std::uint64_t done = film_.fewest_samples(); done < settings_.samples && !stopped();) {
+      const std::uint64_t look = next_look(done);
+      done = exposure_->pass(film_, done, look, stage, after_some);
+      if (settings_.target > 0 && done == look && mean_relative_error() <= settings_.target) break;
+    }
     if (checkpoints_.keep && (stopped() || kept_ || checkpoints_.from != nullptr)) keep();
     if (film_.fewest_samples() == 0) throw core::Interrupted("rendering " + camera_.name);
     return developed();
@@ -101,27 +113,32 @@ class Painter {
  private:
   bool stopped() const { return run_.stop.stop_requested(); }
 
-  /// All pixels from `done` on.  @return  samples that all have then, but for a stop
-  std::uint64_t pass(std::uint64_t done, core::Progress::Stage& stage) {
-    const std::uint64_t unit = independent(settings_) ? 1 : sequence_batches;
-    const std::uint64_t least = std::max(first_pass, unit);
-    const std::uint64_t at_once = std::max(least, pace_.portion() / film_.pixels()) / unit * unit;
-    const std::uint64_t end = std::min(settings_.samples, done + std::min(std::max(least, done), at_once));
-    const std::uint64_t each = end - done;
-    for (std::size_t begin = 0; begin < film_.pixels() && !stopped();) {
-      const std::size_t band = std::max<std::size_t>(pixels_per_block, pace_.portion() / each);
-      const std::size_t past = std::min(film_.pixels(), begin + band);
-      const Clock::time_point start = Clock::now();
-      run_.threads.for_blocks(static_cast<Index>(past - begin), pixels_per_block, [&](Index from, Index to) {
-        if (stopped()) return;
-        for (Index p = from; p < to; ++p) expose(begin + static_cast<std::size_t>(p), end);
-        stage.advance(static_cast<std::uint64_t>(to - from) * each);
-      });
-      pace_.took((past - begin) * each, core::seconds_since(start));
-      begin = past;
-      if (checkpoints_.keep && core::seconds_since(saved_) >= checkpoints_.seconds_between) keep();
+  /// With a target there is a look at the errors after 64, 128, 256, .. samples a pixel alone: looks are chances to stop
+  /// where errors happen to seem small, and few of them are as good as none.
+  std::uint64_t next_look(std::uint64_t done) const {
+    if (settings_.target == 0) return settings_.samples;
+    std::uint64_t look = first_look;
+    while (look <= done) look *= 2;
+    return std::min(look, settings_.samples);
+  }
+
+  /// Of the weighed radiance: standard errors over the radiance, or over a tenth of the picture's mean where that is
+  /// more; the root of the mean of squares over all pixels.
+  double mean_relative_error() const {
+    const Spectrum largest = inv_pi * exposure_->largest_score();
+    std::vector<double> values, errors;
+    for (std::size_t p = 0; p < film_.pixels(); ++p) {
+      const Estimate pixel = film_.estimate(p, largest);
+      values.push_back(scene_.weigh(pixel.value));
+      errors.push_back(weighed_standard_error(scene_, pixel));
     }
-    return end;
+    const double floor = 0.1 * std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    double sum = 0;
+    for (std::size_t p = 0; p < values.size(); ++p) {
+      const double relative = errors[p] / std::max(values[p], floor);
+      sum += std::isfinite(relative) ? relative * relative : 0;
+    }
+    return std::sqrt(sum / static_cast<double>(values.size()));
   }
 
   void keep() {
@@ -130,44 +147,11 @@ class Painter {
     saved_ = Clock::now();
   }
 
-  void add(std::size_t pixel, core::RandomNumbers& numbers) {
-    const auto width = static_cast<std::size_t>(camera_.width);
-    const PixelOnFilm at{static_cast<int>(pixel % width), static_cast<int>(pixel / width)};
-    const Spectrum sample = film_sample(map_, *filter_, at, paths_, numbers);
-    film_.add(pixel, sample, paths_.scene().weigh(sample));
-  }
-
-  /// Brings a pixel to `end` samples.
-  void expose(std::size_t pixel, std::uint64_t end) {
-    const std::uint64_t begin = film_.samples(pixel);
-    if (begin >= end) return;  // of a run that had come further here before it was stopped
-    const auto stream = static_cast<std::uint32_t>(pixel);
-    if (independent(settings_)) {
-      for (std::uint64_t k = begin; k < end; ++k) {
-        core::RandomNumbers numbers(seed_, stream, k);
-        add(pixel, numbers);
-      }
-      return;
-    }
-    const std::size_t rounds = static_cast<std::size_t>((end - begin) / sequence_batches);
-    std::vector<double> points(sequence_batches * rounds * given_numbers);
-    for (std::size_t b = 0; b < sequence_batches; ++b)
-      sequence_->replicate(pixel * sequence_batches + b)
-          ->points(begin / sequence_batches, given_numbers,
-                   std::span(points).subspan(b * rounds * given_numbers, rounds * given_numbers));
-    for (std::uint64_t k = begin; k < end; ++k) {
-      const std::size_t b = k % sequence_batches, round = static_cast<std::size_t>((k - begin) / sequence_batches);
-      core::RandomNumbers numbers(seed_, stream, k,
-                                  std::span(points).subspan((b * rounds + round) * given_numbers, given_numbers));
-      add(pixel, numbers);
-    }
-  }
-
   Rendering developed() const {
-    const std::vector<std::string>& channels = paths_.scene().channels;
+    const std::vector<std::string>& channels = scene_.channels;
     const int w = camera_.width, h = camera_.height;
     Rendering picture{{w, h, channels}, {w, h, channels}, {w, h, {"samples"}}, film_.fewest_samples()};
-    const Spectrum largest = inv_pi * (1 + 2 * filter_->negative()) * paths_.largest_score();
+    const Spectrum largest = inv_pi * (1 + 2 * filter_->negative()) * exposure_->largest_score();
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
         const std::size_t p = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
@@ -183,21 +167,19 @@ class Painter {
     if (const std::uint64_t not_finite = film_.not_finite(); not_finite > 0)
       core::log::warning(core::format("render: %llu samples are not finite and count as zero (seed %llu)",
                                       static_cast<unsigned long long>(not_finite),
-                                      static_cast<unsigned long long>(seed_)));
+                                      static_cast<unsigned long long>(run_.seed)));
     return picture;
   }
 
+  const scene::Scene& scene_;
   const RenderSettings& settings_;
   const scene::Camera& camera_;
   scene::FilmMap map_;
   std::unique_ptr<ReconstructionFilter> filter_;
-  std::unique_ptr<core::SampleSequence> sequence_;
-  PathEstimator paths_;
-  std::uint64_t seed_;
+  std::unique_ptr<Exposure> exposure_;
   Run& run_;
   const RenderCheckpoints& checkpoints_;
   Film film_;
-  Pace pace_;
   Clock::time_point saved_ = Clock::now();
   bool kept_ = false;
 };
@@ -206,7 +188,7 @@ class Painter {
 
 std::pair<Index, Index> render_state_size(const scene::Scene& scene, scene::CameraId id,
                                           const RenderSettings& settings) {
-  const Film one_pixel(1, scene.channel_count(), independent(settings) ? 0 : sequence_batches);
+  const Film one_pixel(1, scene.channel_count(), settings.independent() ? 0 : sequence_batches);
   return {static_cast<Index>(pixels_of(scene.camera(id))), one_pixel.state_columns()};
 }
 

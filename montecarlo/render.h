@@ -26,6 +26,11 @@ struct RenderSettings {
   std::string filter = "box";
   std::string sequence = "independent";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
+  std::string integrator = "path";                           ///< or "bidirectional": those whose pictures grow
+  /// Above 0: it ends earlier where the relative standard errors of its pixels are below that in the root mean square.
+  double target = 0;
+
+  bool independent() const { return sequence == "independent"; }
 };
 
 /// Samples of a sequence that is not independent come in so many randomisations of it, each in all pixels by itself:
@@ -50,6 +55,8 @@ std::pair<Index, Index> render_state_size(const scene::Scene& scene, scene::Came
 /// Sample k of a pixel is keyed by (seed, pixel, k): same bits for any number of threads, and for a run that goes on
 /// from where another was stopped, with more samples too.  It is rendered in passes over all pixels, and a run that is
 /// stopped gives the whole picture with the samples so far.
+///
+/// Bidirectional pictures come in sweeps over all pixels, which share walks from lights (BidirectionalFilm).
 ///
 /// Of a sequence the first numbers of a path are its points', those of the film, the lens and four vertices, each
 /// pixel's by randomisations of its own.

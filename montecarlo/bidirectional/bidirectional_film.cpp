@@ -8,7 +8,7 @@ namespace interflect::montecarlo {
 namespace {
 
 constexpr std::size_t pixels_per_block = 256;
-constexpr std::uint64_t samples_at_once = 1 << 16;
+constexpr std::uint64_t samples_at_once = 1 << 13;
 /// Of the eye's walk: film, lens, then its vertices; of a filter's second point.
 constexpr std::uint32_t film_block = 0, lens_block = 1, walk_block = 2, second_walk_block = 1u << 30;
 

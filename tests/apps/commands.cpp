@@ -291,7 +291,7 @@ TEST(Trace, has_estimates_by_either_integrator) {
   EXPECT_EQ(refused.status, 2);
   EXPECT_TRUE(contains(
       refused.err,
-      "light: paths ASE (from a light with an area, by a mirror, pane or smooth glass) are not found at points"))
+      "light: paths ASE (from a light with an area, by a mirror, pane or smooth glass) are not found at pixels"))
       << refused.err;
 }
 

@@ -133,9 +133,19 @@ void expect_same(const Rendering& a, const Rendering& b) {
 // run that nothing stopped.
 TEST(Render, goes_on_from_where_it_was_stopped_to_the_same_bits) {
   const scene::Scene scene = lit_cube(0.5, 0, 1, 20, 16);
-  for (const auto& [filter, sequence] :
-       {std::pair{"box", "independent"}, {"mitchell", "independent"}, {"gaussian", "zero-two"}}) {
-    const RenderSettings settings = settings_with(256, filter, sequence);
+  for (const auto& [filter, sequence, integrator] : {std::tuple{"box", "independent", "path"},
+                                                     {"mitchell", "independent", "path"},
+                                                     {"gaussian", "zero-two", "path"},
+                                                     {"box", "independent", "bidirectional"},
+                                                     {"mitchell", "independent", "bidirectional"}}) {
+    const auto settings_of = [&, filter = filter, sequence = sequence, integrator = integrator](std::uint64_t samples) {
+      RenderSettings of = settings_with(samples, filter, sequence);
+      of.integrator = integrator;
+      return of;
+    };
+    const RenderSettings settings = settings_of(256);
+    // A sweep is whole or not at all.
+    const std::uint64_t rays_before_a_stop = settings.integrator == "path" ? 9'000 : 150'000;
     core::LocalRun undisturbed(3, 2);
     const auto rays = raycast::make_ray_caster("brute", scene);
     const Rendering expected = render(scene, {0}, settings, undisturbed, *rays);
@@ -146,12 +156,12 @@ TEST(Render, goes_on_from_where_it_was_stopped_to_the_same_bits) {
       core::LocalRun run(3, threads);
       run.get().stop = source.get_token();
       const bool last = threads == 1 && stops > 0;
-      const test::StoppingCaster caster(scene, source, last ? ~std::uint64_t{0} >> 1 : 9'000);
+      const test::StoppingCaster caster(scene, source, last ? ~std::uint64_t{0} >> 1 : rays_before_a_stop);
       RenderCheckpoints checkpoints;
       const FilmState before = kept;
       if (kept.size() > 0) checkpoints.from = &before;
       checkpoints.keep = [&](const FilmState& state) { kept = state; };
-      const RenderSettings some = stops == 0 ? settings_with(128, filter, sequence) : settings;
+      const RenderSettings some = stops == 0 ? settings_of(128) : settings;
       try {
         const Rendering found = render(scene, {0}, some, run, caster, checkpoints);
         if (last)
@@ -165,6 +175,43 @@ TEST(Render, goes_on_from_where_it_was_stopped_to_the_same_bits) {
       stops += last ? 0 : 1;
     }
     EXPECT_EQ(stops, 4);
+  }
+}
+
+// By either integrator, pixel by pixel within both errors, filters with negative lobes too; sweeps splat into neighbours.
+TEST(Render, is_the_same_picture_by_either_integrator) {
+  const scene::Scene scene = lit_cube(0.5, 0, 1, 12, 10);
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  for (const char* filter : {"box", "gaussian", "mitchell"}) {
+    RenderSettings settings = settings_with(2048, filter, "independent");
+    core::LocalRun run(3, 2);
+    const Rendering path = render(scene, {0}, settings, run, *rays);
+    settings.integrator = "bidirectional", settings.samples = 512;
+    const Rendering both = render(scene, {0}, settings, run, *rays);
+    const double limit = test::critical_z(test::alpha, path.radiance.data.size());
+    for (std::size_t k = 0; k < path.radiance.data.size(); ++k) {
+      const double error = std::hypot(path.standard_error.data[k], both.standard_error.data[k]);
+      EXPECT_NEAR(both.radiance.data[k], path.radiance.data[k], limit * error + 1e-6) << filter << ' ' << k;
+      EXPECT_LT(error, .1 * path.radiance.data[k] + 1e-3) << filter << ' ' << k;
+    }
+  }
+}
+
+// To a target it ends at 64 samples, or twice as many, .., where errors are as small, and not far below.
+TEST(Render, ends_where_errors_are_as_small_as_is_asked_for) {
+  const scene::Scene scene = lit_cube(0.5, 0, 1, 20, 16);
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  for (const char* integrator : {"path", "bidirectional"}) {
+    RenderSettings settings = settings_with(1 << 16, "box", "independent");
+    settings.integrator = integrator, settings.target = .05;
+    core::LocalRun run(3, 2);
+    const Rendering found = render(scene, {0}, settings, run, *rays);
+    EXPECT_LT(found.samples, settings.samples);
+    EXPECT_EQ(found.samples & (found.samples - 1), 0u) << found.samples;
+    settings.samples = found.samples, settings.target = 0;
+    expect_same(render(scene, {0}, settings, run, *rays), found);
+    settings.samples = 1 << 16, settings.target = .5;
+    EXPECT_EQ(render(scene, {0}, settings, run, *rays).samples, 64u);
   }
 }
 

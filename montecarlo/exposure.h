@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/run.h"
+#include "montecarlo/film/film.h"
+#include "montecarlo/film/reconstruction_filter.h"
+
+namespace interflect::montecarlo {
+
+/// How an integrator exposes a film: the samples of a picture's pixels, in an order of its own.
+class Exposure {
+ public:
+  virtual ~Exposure() = default;
+  /// Of an irradiance of 1, as Tally::estimate takes it.
+  virtual Spectrum largest_score() const = 0;
+  /// More samples of all pixels, which have `done` each or, after a stop, some more; up to `limit`.
+  /// @param after_some  called now and then, between samples
+  /// @return            samples that all have then, but for a stop
+  virtual std::uint64_t pass(Film& film, std::uint64_t done, std::uint64_t limit, core::Progress::Stage& stage,
+                             const std::function<void()>& after_some) = 0;
+};
+
+}  // namespace interflect::montecarlo
