@@ -209,50 +209,6 @@ TEST(Bidirectional, knows_a_caustic_better_than_path_tracing) {
   }
 }
 
-// Of 200 seeds 95 % intervals hold the truth in 179 .. 198 but with a probability of 9e-4 each.
-TEST(Bidirectional, holds_the_truth_as_often_as_it_says) {
-  SceneBuilder builder({"grey"});
-  const auto wall = builder.add_material(test::diffuse("wall", .6, .4));
-  builder.add_box("room", {Vec3(0, 0, 0), Vec3(2, 3, 1)}, wall, SceneBuilder::Facing::inward);
-  builder.scene().cameras.push_back({"c", Vec3(.9, 1.2, .4), Vec3(1.5, 2.8, .7), z, 90, 3, 3});
-  const scene::Scene scene = builder.finish();
-  const auto side = measure::patches_of(scene, test::surface_named(scene, "room/x-"), scene::Side::front);
-  const std::vector<measure::Measurement> asked{measure::Flux{side}, measure::PatchIrradiance{side[0]},
-                                                measure::PointIrradiance{Vec3(1, 1, .5), z, {}},
-                                                measure::PixelRadiance{{0}, 1, 1}, measure::PixelRadiance{{0}, 2, 0}};
-  const double truth[] = {3, 1, 1, inv_pi, inv_pi};
-  int held[] = {0, 0, 0, 0, 0};
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    core::LocalRun run(seed, 2);
-    const auto found = BidirectionalTracer({.target = .1}).answer(scene, asked, run.get());
-    for (std::size_t m = 0; m < asked.size(); ++m)
-      held[m] += std::abs(found[m].value[0] - truth[m]) <= normal_95 * found[m].standard_error[0];
-  }
-  for (const int each : held) {
-    EXPECT_GE(each, 179);
-    EXPECT_LE(each, 198);
-  }
-}
-
-TEST(Bidirectional, has_the_same_bits_for_any_number_of_threads) {
-  const scene::Scene scene = test::furnished(1);
-  const std::vector<measure::Measurement> asked{
-      measure::Flux{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)},
-      measure::PointIrradiance{Vec3(.5, 1, .4), z, {}}, measure::PixelRadiance{{0}, 2, 2},
-      measure::PixelRadiance{{0}, 3, 2}, measure::PixelRadiance{{0}, 2, 2}};
-  std::vector<std::vector<Estimate>> found;
-  for (const unsigned threads : {1u, 2u, 3u, 8u}) {
-    core::LocalRun run(7, threads);
-    found.push_back(BidirectionalTracer({.samples = 3'000}).answer(scene, asked, run.get()));
-  }
-  for (const auto& each : found)
-    for (std::size_t m = 0; m < asked.size(); ++m) {
-      EXPECT_EQ(each[m].value, found[0][m].value);
-      EXPECT_EQ(each[m].standard_error, found[0][m].standard_error);
-    }
-  EXPECT_EQ(found[0][2].value, found[0][4].value);  // asked twice
-}
-
 // Classes of paths add up to the whole.
 TEST(Bidirectional, splits_light_by_classes_of_paths) {
   const scene::Scene scene = test::shiny();

@@ -54,22 +54,28 @@ std::vector<Question> questions_of(const scene::Scene& scene) {
           {measure::PixelRadiance{{0}, 0, 0}, test::grey(bright * inv_pi), "pixel"}};
 }
 
-// Of 200 seeds, 95 % intervals hold the truth in 181 .. 197 with a probability of .99, of each measurement.
+// Of 200 seeds, 95 % intervals hold the truth in 181 .. 197 with a probability of .99, of each measurement: of samples so
+// many, and to a target, by pilots that are thrown away.
 TEST_P(EveryIntegrator, holds_the_truth_as_often_as_it_says) {
   const scene::Scene scene = squares();
   const std::vector<Question> questions = questions_of(scene);
   std::vector<measure::Measurement> asked;
   for (const Question& question : questions) asked.push_back(question.asked);
-  std::vector<int> held(asked.size());
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    core::LocalRun run(seed, 2);
-    const auto found = integrator(samples(1000))->answer(scene, asked, run.get());
-    for (std::size_t m = 0; m < asked.size(); ++m)
-      held[m] += std::abs(found[m].value[0] - questions[m].truth[0]) <= normal_95 * found[m].standard_error[0];
-  }
-  for (std::size_t m = 0; m < asked.size(); ++m) {
-    EXPECT_GE(held[m], 181) << questions[m].name;
-    EXPECT_LE(held[m], 197) << questions[m].name;
+  IntegratorSettings to_a_target;
+  to_a_target.target = .05;
+  for (const bool to_target : {false, true}) {
+    const auto method = to_target ? make_integrator(GetParam(), to_a_target) : integrator(samples(1000));
+    std::vector<int> held(asked.size());
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      core::LocalRun run(seed, 2);
+      const auto found = method->answer(scene, asked, run.get());
+      for (std::size_t m = 0; m < asked.size(); ++m)
+        held[m] += std::abs(found[m].value[0] - questions[m].truth[0]) <= normal_95 * found[m].standard_error[0];
+    }
+    for (std::size_t m = 0; m < asked.size(); ++m) {
+      EXPECT_GE(held[m], 181) << questions[m].name << (to_target ? " to a target" : "");
+      EXPECT_LE(held[m], 197) << questions[m].name << (to_target ? " to a target" : "");
+    }
   }
 }
 
@@ -88,7 +94,8 @@ TEST_P(EveryIntegrator, has_the_same_bits_for_any_number_of_threads) {
   const scene::Scene scene = test::furnished(1);
   const std::vector<measure::Measurement> asked{
       measure::Flux{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)},
-      measure::PointIrradiance{Vec3(.5, 1, .4), z, {}}, measure::PixelRadiance{{0}, 2, 2}};
+      measure::PointIrradiance{Vec3(.5, 1, .4), z, {}}, measure::PixelRadiance{{0}, 2, 2},
+      measure::PixelRadiance{{0}, 3, 2}, measure::PixelRadiance{{0}, 2, 2}};
   std::vector<std::vector<Estimate>> found;
   for (const unsigned threads : {1u, 2u, 3u, 8u}) {
     core::LocalRun run(7, threads);
@@ -99,6 +106,9 @@ TEST_P(EveryIntegrator, has_the_same_bits_for_any_number_of_threads) {
       EXPECT_EQ(each[m].value, found[0][m].value);
       EXPECT_EQ(each[m].standard_error, found[0][m].standard_error);
     }
+  if (GetParam() != "path") {
+    EXPECT_EQ(found[0][2].value, found[0][4].value);  // asked twice, of one film
+  }
 }
 
 TEST_P(EveryIntegrator, finds_a_dark_scene_dark_and_stops) {
@@ -147,6 +157,38 @@ TEST_P(EveryIntegrator, agrees_with_path_tracing_class_by_class) {
   for (const char* paths : {"AE", "AS.*E", "AD(D|G)*E", "A.*G.*D.*E"})
     test::expect_same(*of_paths(samples(100'000), paths),
                       PathTracer({.samples = 250'000, .paths = measure::PathClasses::of(paths)}), scene, asked, .2);
+}
+
+// By the same samples: what comes first after the light is one of four.
+TEST_P(EveryIntegrator, adds_parts_of_all_paths_up_to_the_whole) {
+  const scene::Scene scene = test::shiny();
+  const std::vector<measure::Measurement> asked{
+      measure::Flux{measure::patches_of(scene, test::surface_named(scene, "room/z-"), scene::Side::front)},
+      measure::PointIrradiance{Vec3(.3, 1, .4), Vec3(.6, 0, .8), {}}, measure::PixelRadiance{{0}, 1, 1}};
+  const measure::Capabilities finds = integrator(1)->capabilities();
+  const measure::PathClasses all = finds.to_patches & finds.to_points & finds.to_pixels;
+  const auto found_of = [&](const measure::PathClasses& paths) {
+    IntegratorSettings settings;
+    settings.samples = samples(5'000);
+    settings.paths = paths;
+    core::LocalRun run(1, 2);
+    return make_integrator(GetParam(), settings)->answer(scene, asked, run.get());
+  };
+  std::vector<Spectrum> sums(asked.size());
+  std::vector<int> parts(asked.size());
+  for (const char* part : {"LE", "LD.*E", "LG.*E", "LS.*E"}) {
+    const auto found = found_of(all & measure::PathClasses::of(part));
+    for (std::size_t m = 0; m < asked.size(); ++m) {
+      sums[m] += found[m].value;
+      if (!found[m].value.is_zero()) ++parts[m];
+    }
+  }
+  const auto whole = found_of(all);
+  for (std::size_t m = 0; m < asked.size(); ++m) {
+    EXPECT_GE(parts[m], 3) << m;  // no light straight into the pixel
+    for (int c = 0; c < scene.channel_count(); ++c)
+      EXPECT_NEAR(sums[m][c], whole[m].value[c], 1e-12 * whole[m].value[c]) << m << ' ' << c;
+  }
 }
 
 std::vector<std::string> that_find_all_paths() { return {"path", "bidirectional", "light"}; }

@@ -31,10 +31,10 @@ Estimate pixel(const measure::Method& method, const scene::Scene& scene, std::ui
   return method.answer(scene, {&asked, 1}, run.get())[0];
 }
 
-/// Of the truth 1e-5 is forgiven: pixels have a size, and rays meet surfaces in single precision.
+/// Of the truth 5e-5 is forgiven: pixels have a size, and rays start a little beside their surfaces.
 void expect_within(const Estimate& found, double truth, double largest_error, const std::string& what = "") {
   const double error = found.error_bound[0] + 4 * found.standard_error[0];
-  EXPECT_NEAR(found.value[0], truth, error + 1e-5 * truth) << what;
+  EXPECT_NEAR(found.value[0], truth, error + 5e-5 * truth) << what;
   EXPECT_LE(error, largest_error * truth) << what;
 }
 
