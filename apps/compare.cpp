@@ -13,6 +13,7 @@
 #include "core/format.h"
 #include "core/log.h"
 #include "montecarlo/integrator_comparison.h"
+#include "montecarlo/measurable.h"
 #include "montecarlo/tally.h"
 #include "results/atomic_file.h"
 #include "results/comparison_panels.h"
@@ -86,10 +87,22 @@ std::string pair_name(const Compared& of, const IntegratorPair& pair) {
   return of.comparison.trials[pair.a].integrator + " - " + of.comparison.trials[pair.b].integrator;
 }
 
+/// One of the paths that either misses, on which they are not held against each other.
+std::string missed_by(const Compared& of, const IntegratorPair& pair) {
+  const std::string &a = of.comparison.trials[pair.a].missed, &b = of.comparison.trials[pair.b].missed;
+  return a.empty() || a == b ? b : b.empty() ? a : a + ", " + b;
+}
+
 bool all_agree(const std::vector<Compared>& all) {
   return std::all_of(all.begin(), all.end(), [](const Compared& of) {
     return std::all_of(of.agreements.begin(), of.agreements.end(), [](const Agreement& a) { return a.agrees(); });
   });
+}
+
+const char* verdict(const std::vector<Compared>& all) {
+  if (!all_agree(all)) return "THEY DO NOT AGREE";
+  const bool any = std::any_of(all.begin(), all.end(), [](const Compared& of) { return !of.agreements.empty(); });
+  return any ? "all agree" : "nothing was held against anything";
 }
 
 std::string efficiency_table(const scene::Scene& scene, const std::vector<Compared>& all) {
@@ -109,13 +122,14 @@ std::string efficiency_table(const scene::Scene& scene, const std::vector<Compar
 }
 
 std::string agreement_table(const std::vector<Compared>& all, double z_max) {
-  Table table({"measured", "held against each other", "comparisons", "largest z", "allowed", "beyond", "worst"});
+  Table table({"measured", "held against each other", "comparisons", "mean z", "largest z", "allowed", "beyond",
+               "worst", "but paths"});
   for (const Compared& of : all)
     for (std::size_t p = 0; p < of.agreements.size(); ++p) {
       const Agreement& a = of.agreements[p];
       table.add({of.kind.name, pair_name(of, of.comparison.pairs[p]), core::format_count(a.comparisons),
-                 core::format("%.2f", a.largest_z), core::format("%.2f", z_max), core::format_count(a.beyond),
-                 of.kind.names[a.worst]});
+                 core::format("%+.2f", a.mean_z), core::format("%.2f", a.largest_z), core::format("%.2f", z_max),
+                 core::format_count(a.beyond), of.kind.names[a.worst], missed_by(of, of.comparison.pairs[p])});
     }
   return table.text();
 }
@@ -129,21 +143,51 @@ std::string refusals(const std::vector<Compared>& all) {
   return text;
 }
 
+/// Mean irradiances of fluxes; others as they are.
+Estimate told(const measure::Measurement& asked, const Estimate& found) {
+  return std::holds_alternative<measure::Flux>(asked) ? scaled(found, 1 / montecarlo::scale_of(asked)) : found;
+}
+
+const char* unit_of(const scene::Scene& scene, const measure::Measurement& asked) {
+  return std::holds_alternative<measure::PixelRadiance>(asked) ? scene.radiance_unit() : scene.irradiance_unit();
+}
+
+/// Who found it, what it was held against there (nothing: it was asked for by itself), and of which paths.
+struct Finder {
+  std::string integrator, against;
+  const measure::PathClasses& paths;
+};
+
+void add_found(const scene::Scene& scene, const Kind& kind, const Finder& finder, std::span<const Estimate> found,
+               results::Csv& csv) {
+  const int channels = scene.channel_count();
+  for (std::size_t m = 0; m < found.size(); ++m) {
+    const Estimate e = told(kind.asked[m], found[m]);
+    csv.text(kind.name).text(kind.names[m]).text(unit_of(scene, kind.asked[m]));
+    csv.text(finder.integrator).text(finder.against).text(finder.paths.expression());
+    csv.integer(static_cast<long long>(e.samples)).number(scene.weigh(e.value));
+    csv.number(montecarlo::weighed_standard_error(scene, e)).number(scene.weigh(e.error_bound));
+    csv.numbers(e.value, channels).numbers(e.standard_error, channels).numbers(e.error_bound, channels).end_line();
+  }
+}
+
 std::string csv_of(const scene::Scene& scene, const std::vector<Compared>& all) {
   results::Csv csv;
   for (const char* heading :
-       {"kind", "name", "integrator", "paths", "samples", "value", "standard_error", "error_bound"})
+       {"kind", "name", "unit", "integrator", "against", "paths", "samples", "value", "standard_error", "error_bound"})
     csv.text(heading);
-  csv.headings("value", scene.channel_count()).headings("standard_error", scene.channel_count()).end_line();
-  for (const Compared& of : all)
-    for (const IntegratorTrial& trial : of.comparison.trials)
-      for (std::size_t m = 0; m < trial.found.size(); ++m) {
-        const Estimate& e = trial.found[m];
-        csv.text(of.kind.name).text(of.kind.names[m]).text(trial.integrator).text(trial.paths.expression());
-        csv.integer(static_cast<long long>(e.samples)).number(scene.weigh(e.value));
-        csv.number(montecarlo::weighed_standard_error(scene, e)).number(scene.weigh(e.error_bound));
-        csv.numbers(e.value, scene.channel_count()).numbers(e.standard_error, scene.channel_count()).end_line();
-      }
+  for (const char* heading : {"value", "standard_error", "error_bound"}) csv.headings(heading, scene.channel_count());
+  csv.end_line();
+  for (const Compared& of : all) {
+    const std::vector<IntegratorTrial>& trials = of.comparison.trials;
+    for (const IntegratorTrial& trial : trials)
+      add_found(scene, of.kind, {trial.integrator, "", trial.paths}, trial.found, csv);
+    for (const IntegratorPair& pair : of.comparison.pairs) {
+      const std::string &a = trials[pair.a].integrator, &b = trials[pair.b].integrator;
+      add_found(scene, of.kind, {a, b, pair.common}, pair.of_a, csv);
+      add_found(scene, of.kind, {b, a, pair.common}, pair.of_b, csv);
+    }
+  }
   return csv.str();
 }
 
@@ -165,6 +209,7 @@ results::Record record_of(const scene::Scene& scene, const std::vector<Compared>
                           .add("pair", pair_name(of, of.comparison.pairs[p]))
                           .add("paths", of.comparison.pairs[p].common.expression())
                           .add("comparisons", a.comparisons)
+                          .add("mean_z", a.mean_z)
                           .add("largest_z", a.largest_z)
                           .add("beyond", a.beyond)
                           .add("worst", of.kind.names[a.worst]));
@@ -235,13 +280,12 @@ std::vector<Compared> compared(const scene::Scene& scene, const std::vector<Kind
   settings.intersector = options.intersector;
   settings.paths = measure::PathClasses::of(options.paths);
   std::vector<Compared> all;
-  try {
-    for (const Kind& kind : kinds) {
-      all.push_back({kind, compare_integrators(scene, kind.asked, names, settings, run), {}});
+  for (const Kind& kind : kinds) {
+    if (!all.empty() && run.stop.stop_requested()) {
+      core::log::warning("stopped: " + kind.name + " were not compared");
+      continue;
     }
-  } catch (const core::Interrupted&) {
-    if (all.empty()) throw;
-    core::log::warning("stopped: " + kinds[all.size()].name + " were not compared");
+    all.push_back({kind, compare_integrators(scene, kind.asked, names, settings, run), {}});
   }
   return all;
 }
@@ -283,7 +327,7 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
   const bool talk = !common.json && !common.quiet;
   if (talk)
     std::printf("%s\n%s%s%s\n", efficiency_table(scene, all).c_str(), agreement_table(all, z_max).c_str(),
-                refusals(all).c_str(), all_agree(all) ? "all agree" : "THEY DO NOT AGREE");
+                refusals(all).c_str(), verdict(all));
   std::fflush(stdout);
   try {
     if (options.pictures && camera) write_pictures(scene, *camera, names, options, run);

@@ -74,8 +74,9 @@ void print_text(const scene::Scene& scene, const scene::Inspection& inspection) 
   std::printf("surfaces       %zu, %zu facets, %.6g m2\n", scene.surfaces.size(), scene.facets.size(), area);
   std::printf("bounding box   %s\n", box_text(scene).c_str());
   std::printf("channels       %s\n", channels.c_str());
-  std::printf("emitted flux   %.6g %s (%s)\n", scene.weigh(scene.emitted_flux()), scene.flux_unit(),
-              spectrum_text(scene.emitted_flux(), scene.channel_count()).c_str());
+  std::printf("emitted flux   %.6g %s (%s)%s\n", scene.weigh(scene.emitted_flux()), scene.flux_unit(),
+              spectrum_text(scene.emitted_flux(), scene.channel_count()).c_str(),
+              scene.lights.empty() ? "" : ", of surfaces");
   std::printf("%s%s", emitters_text(scene).c_str(), lights_text(scene).c_str());
   std::printf("geometry       %s\n", closedness_text(inspection).c_str());
   std::printf("sensors        %zu\ncameras        %zu\n", scene.sensors.size(), scene.cameras.size());

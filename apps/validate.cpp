@@ -77,6 +77,16 @@ std::unique_ptr<measure::Method> tracer_for(const ValidateOptions& options) {
   return montecarlo::make_integrator(options.integrator, settings);
 }
 
+/// Without a bias, and of all paths that radiosity finds: else a difference would say nothing.
+void require_reference(const ValidateOptions& options) {
+  const measure::Capabilities finds = tracer_for(options)->capabilities();
+  for (const measure::PathClasses* each : {&finds.to_patches, &finds.to_points})
+    if (const auto missed = measure::PathClasses::of("LD*E") - *each; !finds.unbiased || !missed.empty())
+      throw core::InputError("integrator '" + options.integrator + "'",
+                             "an unbiased one expected that finds all that radiosity does, LD*E" +
+                                 (missed.empty() ? "" : ", also " + missed.shortest()));
+}
+
 /// By a trial of a few of them; of path tracing alone.
 std::optional<double> tracing_seconds(const scene::Scene& scene, const Questions& questions,
                                       const ValidateOptions& options, Run& run) {
@@ -132,6 +142,7 @@ std::vector<Judged> trace_and_judge(const SolvedScene& solved, const ValidateOpt
 }  // namespace
 
 ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run) {
+  require_reference(options);  // before the work
   if (options.solve.forecast_only) return print_forecast(options, common, run);
   const auto solved = solve_scene(scene_to_solve(options.solve), options.solve, common, run);
   write_solution(*solved, options.solve, common, run);

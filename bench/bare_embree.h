@@ -39,6 +39,8 @@ class Recorder final : public raycast::RayCaster {
     return caster_.occluded(segment);
   }
   void occluded(std::span<const raycast::Segment> asked, std::span<std::uint8_t> blocked) const override {
+    order.insert(order.end(), asked.size(), false);
+    segments.insert(segments.end(), asked.begin(), asked.end());
     caster_.occluded(asked, blocked);
   }
   double offset() const override { return caster_.offset(); }

@@ -43,13 +43,13 @@ void compare_with_bare_embree(const scene::Scene& scene, const std::vector<measu
   const auto caster = raycast::make_ray_caster("embree", scene);
   const Recorder recorder(*caster);
   Spectrum sum;
+  std::vector<Spectrum> samples(samples_each);
   const auto trace = [&](const raycast::RayCaster& with) {
     const montecarlo::PathEstimator paths(scene, with);
-    for (std::uint32_t m = 0; m < samplers.size(); ++m)
-      for (std::uint64_t k = 0; k < samples_each; ++k) {
-        core::RandomNumbers numbers(1, m, k);
-        sum += samplers[m].sample(paths, numbers);
-      }
+    for (std::uint32_t m = 0; m < samplers.size(); ++m) {
+      samplers[m].sample(paths, {1, m, 0}, samples);
+      for (const Spectrum& each : samples) sum += each;
+    }
   };
   trace(recorder);
   const BareEmbree bare(scene, recorder, caster->offset());

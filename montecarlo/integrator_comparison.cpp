@@ -1,5 +1,6 @@
 #include "montecarlo/integrator_comparison.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -16,7 +17,7 @@ class Comparing {
  public:
   Comparing(const scene::Scene& scene, std::span<const measure::Measurement> asked, const IntegratorSettings& settings,
             Run& run)
-      : scene_(scene), asked_(asked), settings_(settings), run_(run), there_(paths_in(scene)) {}
+      : scene_(scene), asked_(asked), settings_(settings), run_(run), there_(that_reach(asked[0], paths_in(scene))) {}
 
   IntegratorTrial trial(const std::string& name) const {
     IntegratorTrial trial{name, "", "", settings_.paths, {}, 0};
@@ -24,12 +25,18 @@ class Comparing {
     if (const auto missed = (there_ & settings_.paths) - finds; !missed.empty()) {
       trial.missed = missed.shortest();
       trial.paths = settings_.paths & finds;
+      if (empty(trial.paths)) {
+        trial.refused = "finds none of these paths, " + trial.missed;
+        return trial;
+      }
     }
     const double begin = processor_seconds();
     try {
       trial.found = answers(name, trial.paths);
     } catch (const core::InputError& error) {
       trial.refused = error.what();
+    } catch (const core::Interrupted&) {
+      trial.refused = "stopped before it had an answer";
     }
     trial.processor_seconds = processor_seconds() - begin;
     return trial;
@@ -80,12 +87,18 @@ IntegratorComparison compare_integrators(const scene::Scene& scene, std::span<co
   const Comparing comparing(scene, asked, settings, run);
   for (const std::string& name : names) comparison.trials.push_back(comparing.trial(name));
   const auto& trials = comparison.trials;
+  if (std::ranges::all_of(trials, [](const IntegratorTrial& trial) { return trial.found.empty(); }))
+    run.throw_if_stopped("comparing");
   for (std::size_t a = 0; a < trials.size(); ++a)
     for (std::size_t b = a + 1; b < trials.size(); ++b) {
       if (!trials[a].refused.empty() || !trials[b].refused.empty()) continue;
       const measure::PathClasses common = trials[a].paths & trials[b].paths;
       if (comparing.empty(common)) continue;
-      comparison.pairs.push_back({a, b, common, comparing.of(trials[a], common), comparing.of(trials[b], common)});
+      try {
+        comparison.pairs.push_back({a, b, common, comparing.of(trials[a], common), comparing.of(trials[b], common)});
+      } catch (const core::Interrupted&) {
+        // What a stop leaves no answers for is not held against each other.
+      }
     }
   return comparison;
 }

@@ -38,7 +38,8 @@ struct IntegratorComparison {
 
 /// Runs each of them on what it finds of `settings.paths`, and those pairs once more whose paths differ in this scene.
 /// @param asked  of one kind: patches and fluxes, points, or pixels
-/// @throws core::Interrupted  if one has nothing for some measurement when the run is stopped
+/// What has no answer when the run is stopped is refused, and held against nothing.
+/// @throws core::Interrupted  if none has one
 IntegratorComparison compare_integrators(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                          const std::vector<std::string>& names, const IntegratorSettings& settings,
                                          Run& run);

@@ -1,5 +1,7 @@
 #include "montecarlo/measurement_sampler.h"
 
+#include <algorithm>
+
 #include "montecarlo/measurable.h"
 
 namespace interflect::montecarlo {
@@ -17,24 +19,63 @@ const ReconstructionFilter& box() {
 
 }  // namespace
 
-Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
-                     const PathEstimator& paths, core::RandomNumbers& numbers) {
-  numbers.jump(film_block);
-  const double u = numbers.next(), v = numbers.next();
+namespace {
+
+/// Where a sample meets the film, and the lens.
+struct OnFilm {
+  double u, v;
   Vec2 lens = Vec2::Zero();
+};
+OnFilm on_film(const scene::FilmMap& film, core::RandomNumbers& numbers) {
+  numbers.jump(film_block);
+  const double u = numbers.next();
+  OnFilm at{u, numbers.next()};
   if (film.has_lens()) {
     numbers.jump(lens_block);
     const double r = numbers.next();
-    lens = scene::uniform_disk(r, numbers.next());
+    at.lens = scene::uniform_disk(r, numbers.next());
   }
+  return at;
+}
+Vec2 middle_of(const PixelOnFilm& pixel) { return {pixel.x + 0.5, pixel.y + 0.5}; }
+
+}  // namespace
+
+Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
+                     const PathEstimator& paths, core::RandomNumbers& numbers) {
+  const OnFilm at = on_film(film, numbers);
   const auto radiance = [&](const Vec2& offset, std::uint32_t block) {
-    const auto ray = film.ray(Vec2(pixel.x + 0.5, pixel.y + 0.5) + offset, lens);
+    const auto ray = film.ray(middle_of(pixel) + offset, at.lens);
     return ray ? paths.radiance(ray->origin, ray->direction, numbers, block) : Spectrum::zero();
   };
   const double negative = filter.negative();
-  const Spectrum found = radiance(filter.sample(u, v), path_block);
+  const Spectrum found = radiance(filter.sample(at.u, at.v), path_block);
   if (negative == 0) return found;
-  return (1 + negative) * found - negative * radiance(filter.sample_negative(u, v), second_path_block);
+  return (1 + negative) * found - negative * radiance(filter.sample_negative(at.u, at.v), second_path_block);
+}
+
+void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
+                  const PathEstimator& paths, const PathEstimator::Keys& keys, std::span<Spectrum> samples) {
+  std::vector<OnFilm> at;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    core::RandomNumbers numbers(keys.seed, keys.stream, keys.first + k);
+    at.push_back(on_film(film, numbers));
+  }
+  std::vector<Spectrum> found(samples.size());
+  const auto radiances = [&](auto offset, std::uint32_t block) {
+    std::vector<std::optional<raycast::Ray>> rays;
+    for (const OnFilm& each : at) {
+      const auto ray = film.ray(middle_of(pixel) + offset(each), each.lens);
+      rays.push_back(ray ? std::optional(raycast::Ray{ray->origin, ray->direction}) : std::nullopt);
+    }
+    paths.radiance(rays, keys, block, found);
+  };
+  radiances([&](const OnFilm& each) { return filter.sample(each.u, each.v); }, path_block);
+  std::copy(found.begin(), found.end(), samples.begin());
+  const double negative = filter.negative();
+  if (negative == 0) return;
+  radiances([&](const OnFilm& each) { return filter.sample_negative(each.u, each.v); }, second_path_block);
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = (1 + negative) * samples[k] - negative * found[k];
 }
 
 MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure::Measurement& asked)
@@ -52,6 +93,21 @@ Spectrum MeasurementSampler::sample(const PathEstimator& paths, core::RandomNumb
   if (film_) return film_sample(*film_, box(), pixel_, paths, numbers);
   const Receiver at = place_->draw(numbers);
   return scale_ * paths.irradiance(at, numbers, path_block);
+}
+
+void MeasurementSampler::sample(const PathEstimator& paths, const PathEstimator::Keys& keys,
+                                std::span<Spectrum> samples) const {
+  if (film_) {
+    film_samples(*film_, box(), pixel_, paths, keys, samples);
+    return;
+  }
+  std::vector<Receiver> at;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    core::RandomNumbers numbers(keys.seed, keys.stream, keys.first + k);
+    at.push_back(place_->draw(numbers));
+  }
+  paths.irradiance(at, keys, path_block, samples);
+  for (Spectrum& each : samples) each = scale_ * each;
 }
 
 }  // namespace interflect::montecarlo

@@ -20,6 +20,10 @@ struct PixelOnFilm {
 Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
                      const PathEstimator& paths, core::RandomNumbers& numbers);
 
+/// The same of samples one after the other, traced together; bit by bit.
+void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
+                  const PathEstimator& paths, const PathEstimator::Keys& keys, std::span<Spectrum> samples);
+
 /// A measurement made ready to be sampled.
 class MeasurementSampler {
  public:
@@ -30,6 +34,8 @@ class MeasurementSampler {
   /// One whole path from one place: an unbiased estimate of the measurement in its unit.
   ///   patch: H(x), x uniform;   flux: A H(x), x uniform on all patches together;   point: H;   pixel: L.
   Spectrum sample(const PathEstimator& paths, core::RandomNumbers& numbers) const;
+  /// The same of samples one after the other, traced together; bit by bit.
+  void sample(const PathEstimator& paths, const PathEstimator::Keys& keys, std::span<Spectrum> samples) const;
 
   /// What an irradiance of 1 everywhere would measure: 1, the area of a flux [m²], 1 / pi for a pixel [1/sr].
   double scale() const { return scale_; }

@@ -9,9 +9,6 @@ namespace interflect::montecarlo {
 
 namespace {
 
-/// Light 1, point on it 2, direction 3, survival 1, and one that is left.
-constexpr std::uint32_t blocks_per_vertex = 4;
-
 /// The side of a surface that a direction leads to.
 Vec3 normal_towards(const Vec3& front, double z) { return z >= 0 ? front : Vec3(-front); }
 
@@ -34,14 +31,15 @@ PathEstimator::Carried PathEstimator::from_eye() const {
 
 Spectrum PathEstimator::irradiance(const Receiver& at, core::RandomNumbers& numbers, std::uint32_t block) const {
   Carried path = from_eye();
-  follow({at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_, true}, path, numbers, block);
+  follow(receiving(at), path, numbers, block);
   return path.found * pi;
 }
 
 Spectrum PathEstimator::radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers,
                                  std::uint32_t block) const {
   Carried path = from_eye();
-  if (const auto at = arrive({{eye, direction}, {eye, Vec3::Zero()}, 0}, path)) follow(*at, path, numbers, block);
+  const Drawn drawn{{eye, direction}, {eye, Vec3::Zero()}, 0};
+  if (const auto at = arrive(drawn, sight_.caster().closest(drawn.ray), path)) follow(*at, path, numbers, block);
   return path.found;
 }
 
@@ -49,33 +47,43 @@ void PathEstimator::follow(Vertex at, Carried& path, core::RandomNumbers& number
   Drawn drawn{{}, {}, 0};
   for (;; block += blocks_per_vertex) {
     numbers.jump(block);
-    const double u = numbers.next(), v = numbers.next(), pick = numbers.next(), on_u = numbers.next(),
-                 on_v = numbers.next(), survival = numbers.next(), lobe = numbers.next();
+    Numbers drawn_here;
+    for (double* each : {&drawn_here.u, &drawn_here.v, &drawn_here.pick, &drawn_here.on_u, &drawn_here.on_v,
+                         &drawn_here.survival, &drawn_here.lobe})
+      *each = numbers.next();
     const Place place = place_of(at);
-    if (!at.bsdf->only_delta()) path.found += path.throughput * from_lights(at, path, place, pick, on_u, on_v);
-    const std::optional<Scattered> on = at.bsdf->sample(at.to_eye, {lobe, u, v}, Walk::from_eye);
-    if (!on) return;
-    path.throughput *= on->weight;
-    path.squeezed *= on->squeezed;
-    const double survives = going_on(path.throughput.max() / path.squeezed);
-    if (!(survival < survives)) return;
-    path.throughput /= survives;
-    drawn.ray = {at.position, at.frame.to_world(on->way), normal_towards(at.frame.n, on->way.z())};
-    if (!on->straight) {
-      drawn.from = place, drawn.pdf_solid_angle = on->pdf_solid_angle;
-      if (!all_paths_ && !at.receives) path.letters = paths_.after(path.letters, letter_of(*at.bsdf, *on));
-      if (measure::PathClasses::hopeless(path.letters)) return;
-    }
-    const std::optional<Vertex> next = arrive(drawn, path);
+    if (const auto light = from_lights(at, path, place, drawn_here.pick, drawn_here.on_u, drawn_here.on_v))
+      path.found += path.throughput * (sight_.let_pass(light->segment, light->of) * light->light);
+    if (!goes_on(at, place, drawn_here, path, drawn)) return;
+    const std::optional<Vertex> next = arrive(drawn, sight_.caster().closest(drawn.ray), path);
     if (!next) return;
     at = *next;
   }
 }
 
-/// Finds what shines there.  @return  nothing where no path goes on
-std::optional<PathEstimator::Vertex> PathEstimator::arrive(const Drawn& drawn, Carried& path) const {
-  const auto [hit, ball] = sight_.met(drawn.ray);
-  if (ball) {
+bool PathEstimator::goes_on(const Vertex& at, const Place& place, const Numbers& numbers, Carried& path,
+                            Drawn& drawn) const {
+  const auto on = at.bsdf->sample(at.to_eye, {numbers.lobe, numbers.u, numbers.v}, Walk::from_eye);
+  if (!on) return false;
+  path.throughput *= on->weight;
+  path.squeezed *= on->squeezed;
+  const double survives = going_on(path.throughput.max() / path.squeezed);
+  if (!(numbers.survival < survives)) return false;
+  path.throughput /= survives;
+  drawn.ray = {at.position, at.frame.to_world(on->way), normal_towards(at.frame.n, on->way.z())};
+  if (on->straight) return true;
+  drawn.from = place, drawn.pdf_solid_angle = on->pdf_solid_angle;
+  if (!all_paths_ && !at.receives) path.letters = paths_.after(path.letters, letter_of(*at.bsdf, *on));
+  return !measure::PathClasses::hopeless(path.letters);
+}
+
+/// Finds what shines there.
+/// @param hit  the surface that the ray meets
+/// @return     nothing where no path goes on
+std::optional<PathEstimator::Vertex> PathEstimator::arrive(const Drawn& drawn,
+                                                           const std::optional<scene::SurfacePoint>& hit,
+                                                           Carried& path) const {
+  if (const auto ball = sight_.ball_before(drawn.ray, hit)) {
     if (ends_at(path, measure::PathLetter::area))
       path.found += path.throughput * shines(lights_.of_ball(ball->ball), drawn, ball->position);
     return std::nullopt;
@@ -95,23 +103,25 @@ Place PathEstimator::place_of(const Vertex& at) {
   return {at.position, at.bsdf->transmits() ? Vec3(Vec3::Zero()) : normal_towards(at.frame.n, at.to_eye.z())};
 }
 
-Spectrum PathEstimator::from_lights(const Vertex& at, const Carried& path, const Place& place, double pick, double u,
-                                    double v) const {
-  if (lights_.empty()) return Spectrum::zero();
+std::optional<PathEstimator::Candidate> PathEstimator::from_lights(const Vertex& at, const Carried& path,
+                                                                   const Place& place, double pick, double u,
+                                                                   double v) const {
+  if (at.bsdf->only_delta() || lights_.empty()) return std::nullopt;
   const auto [index, probability] = lights_.pick(place, pick);
   const Light& light = lights_[index];
   if (!all_paths_ && !measure::PathClasses::complete(paths_.after(with_letter(path, at), letter_of(light))))
-    return Spectrum::zero();
+    return std::nullopt;
   const std::optional<Arriving> y = light.sample_arriving(place, u, v);
-  if (!y) return Spectrum::zero();
+  if (!y) return std::nullopt;
   const Vec3 local = at.frame.to_local(y->way);
   const Spectrum f = at.bsdf->f(local, at.to_eye);
-  if (f.is_zero()) return f;
+  if (f.is_zero()) return std::nullopt;
   const Vec3 end = light.is_infinite() ? lights_.beyond(at.position, y->way) : y->position;
-  const Spectrum passes = sight_.let_pass({at.position, end, normal_towards(at.frame.n, local.z()), y->normal}, index);
   const double both =
       light.is_delta() ? probability : probability * y->pdf_solid_angle + at.bsdf->pdf_solid_angle(at.to_eye, local);
-  return passes * f * y->light * (std::abs(local.z()) / both);
+  return Candidate{f * y->light * (std::abs(local.z()) / both),
+                   {at.position, end, normal_towards(at.frame.n, local.z()), y->normal},
+                   index};
 }
 
 Spectrum PathEstimator::emitted(const Drawn& drawn, const Carried& path, const scene::SurfacePoint& hit) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "core/random.h"
 #include "measure/path_classes.h"
 #include "montecarlo/bsdf/lambert.h"
@@ -41,6 +43,18 @@ class PathEstimator {
   /// Radiance L that comes to a point in free space along -direction.
   Spectrum radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers, std::uint32_t block) const;
 
+  /// The same of many paths that are traced together, several times sooner: path k by the numbers of sample first + k,
+  /// bit by bit.
+  struct Keys {
+    std::uint64_t seed;
+    std::uint32_t stream;
+    std::uint64_t first;
+  };
+  void irradiance(std::span<const Receiver> at, const Keys& keys, std::uint32_t block, std::span<Spectrum> found) const;
+  /// @param from_eye  none: a path that finds nothing
+  void radiance(std::span<const std::optional<raycast::Ray>> from_eye, const Keys& keys, std::uint32_t block,
+                std::span<Spectrum> found) const;
+
   const scene::Scene& scene() const { return scene_; }
   const LightSet& lights() const { return lights_; }
 
@@ -70,6 +84,19 @@ class PathEstimator {
     measure::PathClasses::FromEye letters;
   };
   Carried from_eye() const;
+  /// Direction 2, light 1, point on it 2, survival 1, lobe 1, and one that is left.
+  static constexpr std::uint32_t blocks_per_vertex = 4;
+  /// What one vertex does with its numbers.
+  struct Numbers {
+    double u, v, pick, on_u, on_v, survival, lobe;
+  };
+  /// Light that is found at a vertex if nothing is in between.
+  struct Candidate {
+    Spectrum light;
+    raycast::Segment segment;
+    std::uint32_t of;
+  };
+  class Wave;
   bool ends_at(const Carried& path, measure::PathLetter light) const {
     return all_paths_ || measure::PathClasses::complete(paths_.after(path.letters, light));
   }
@@ -78,10 +105,14 @@ class PathEstimator {
   }
 
   void follow(Vertex at, Carried& path, core::RandomNumbers& numbers, std::uint32_t block) const;
-  std::optional<Vertex> arrive(const Drawn& drawn, Carried& path) const;
+  Vertex receiving(const Receiver& at) const {
+    return {at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_, true};
+  }
   static Place place_of(const Vertex& at);
-  Spectrum from_lights(const Vertex& at, const Carried& path, const Place& place, double pick, double u,
-                       double v) const;
+  std::optional<Candidate> from_lights(const Vertex& at, const Carried& path, const Place& place, double pick, double u,
+                                       double v) const;
+  bool goes_on(const Vertex& at, const Place& place, const Numbers& numbers, Carried& path, Drawn& drawn) const;
+  std::optional<Vertex> arrive(const Drawn& drawn, const std::optional<scene::SurfacePoint>& hit, Carried& path) const;
   Spectrum emitted(const Drawn& drawn, const Carried& path, const scene::SurfacePoint& hit) const;
   Spectrum escaped(const Drawn& drawn, const Carried& path) const;
   Spectrum shines(std::uint32_t light, const Drawn& drawn, const Vec3& from) const;

@@ -70,10 +70,12 @@ class PathExposure final : public Exposure {
   }
 
  private:
-  void add(Film& film, std::size_t pixel, core::RandomNumbers& numbers) {
+  PixelOnFilm place_of(std::size_t pixel) const {
     const auto width = static_cast<std::size_t>(camera_.width);
-    const PixelOnFilm at{static_cast<int>(pixel % width), static_cast<int>(pixel / width)};
-    const Spectrum sample = film_sample(map_, filter_, at, paths_, numbers);
+    return {static_cast<int>(pixel % width), static_cast<int>(pixel / width)};
+  }
+  void add(Film& film, std::size_t pixel, core::RandomNumbers& numbers) {
+    const Spectrum sample = film_sample(map_, filter_, place_of(pixel), paths_, numbers);
     film.add(pixel, sample, paths_.scene().weigh(sample));
   }
 
@@ -83,10 +85,9 @@ class PathExposure final : public Exposure {
     if (begin >= end) return;  // of a run that had come further here before it was stopped
     const auto stream = static_cast<std::uint32_t>(pixel);
     if (settings_.independent()) {
-      for (std::uint64_t k = begin; k < end; ++k) {
-        core::RandomNumbers numbers(seed_, stream, k);
-        add(film, pixel, numbers);
-      }
+      std::vector<Spectrum> samples(end - begin);
+      film_samples(map_, filter_, place_of(pixel), paths_, {seed_, stream, begin}, samples);
+      for (const Spectrum& sample : samples) film.add(pixel, sample, paths_.scene().weigh(sample));
       return;
     }
     const std::size_t rounds = static_cast<std::size_t>((end - begin) / sequence_batches);

@@ -30,10 +30,7 @@ class PathTraced final : public SampledMeasurements {
   Spectrum largest_score() const override { return paths_.largest_score(); }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      core::RandomNumbers numbers(seed, stream, first + k);
-      samples[k] = measured_[m].sample(paths_, numbers);
-    }
+    measured_[m].sample(paths_, {seed, stream, first}, samples);
   }
 
  private:

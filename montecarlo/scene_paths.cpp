@@ -72,6 +72,10 @@ measure::PathClasses paths_in(const scene::Scene& scene) {
   return measure::PathClasses::of(from + (by.empty() ? "" : by + "*") + "E");
 }
 
+measure::PathClasses that_reach(const measure::Measurement& asked, const measure::PathClasses& paths) {
+  return std::holds_alternative<measure::PixelRadiance>(asked) ? paths - measure::PathClasses::of("PS*E") : paths;
+}
+
 void require_found(const measure::Method& method, const scene::Scene& scene,
                    std::span<const measure::Measurement> asked, const measure::PathClasses& wanted) {
   const measure::PathClasses there = paths_in(scene) & wanted;
@@ -83,8 +87,7 @@ void require_found(const measure::Method& method, const scene::Scene& scene,
     bool& done = seen[pixel ? 2 : point ? 1 : 0];
     if (done) continue;
     done = true;
-    measure::PathClasses missed = there - finds.paths_to(each);
-    if (pixel) missed = missed - measure::PathClasses::of("PS*E");
+    const measure::PathClasses missed = that_reach(each, there) - finds.paths_to(each);
     if (missed.empty()) continue;
     const std::string path = missed.shortest();
     throw core::InputError(

@@ -11,6 +11,10 @@ namespace interflect::montecarlo {
 /// office `(A)(D)*E`.
 measure::PathClasses paths_in(const scene::Scene& scene);
 
+/// Those of them that bring something to what is asked: what comes from points and spots straight into a pixel, `PS*E`,
+/// brings nothing, since their pictures have no area.
+measure::PathClasses that_reach(const measure::Measurement& asked, const measure::PathClasses& paths);
+
 /// @throws core::InputError  if the method misses paths of `wanted` that there may be in the scene, to some of what is
 ///                           asked: with one of them, and how to leave them out
 void require_found(const measure::Method& method, const scene::Scene& scene,

@@ -8,13 +8,16 @@ namespace interflect::montecarlo {
 
 Sight::Met Sight::met(const raycast::Ray& ray, std::optional<std::uint32_t> leaves) const {
   Met met{caster_.closest(ray), std::nullopt};
-  if (lights_.balls().empty()) return met;
-  const double before =
-      met.surface ? (met.surface->position - ray.origin).norm() : std::numeric_limits<double>::infinity();
-  met.ball =
-      lights_.balls().closest(ray.origin, ray.direction, before, leaves ? lights_.ball_of(*leaves) : Balls::none);
+  met.ball = ball_before(ray, met.surface, leaves ? lights_.ball_of(*leaves) : Balls::none);
   if (met.ball) met.surface.reset();
   return met;
+}
+
+std::optional<Balls::Hit> Sight::ball_before(const raycast::Ray& ray, const std::optional<scene::SurfacePoint>& surface,
+                                             std::uint32_t leaves) const {
+  if (lights_.balls().empty()) return std::nullopt;
+  const double before = surface ? (surface->position - ray.origin).norm() : std::numeric_limits<double>::infinity();
+  return lights_.balls().closest(ray.origin, ray.direction, before, leaves);
 }
 
 Spectrum Sight::let_pass(const raycast::Segment& segment, std::optional<std::uint32_t> of) const {

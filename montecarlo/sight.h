@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "montecarlo/light/light_set.h"
 #include "montecarlo/surface_optics.h"
 #include "raycast/ray_caster.h"
@@ -25,6 +28,12 @@ class Sight {
   /// What of light passes between two places: all, nothing, or what panes and nets between them let straight through.
   /// @param of  the light at the segment's end, if it is one
   Spectrum let_pass(const raycast::Segment& segment, std::optional<std::uint32_t> of = {}) const;
+  /// The ball that a ray meets before a surface, if any.
+  std::optional<Balls::Hit> ball_before(const raycast::Ray& ray, const std::optional<scene::SurfacePoint>& surface,
+                                        std::uint32_t leaves = Balls::none) const;
+  /// Whether what stands between places can but block all: then that is the ray caster's to say, of many at once.
+  bool only_blocks() const { return lights_.balls().empty() && !optics_.any_lets_pass(); }
+  const raycast::RayCaster& caster() const { return caster_; }
 
  private:
   const raycast::RayCaster& caster_;

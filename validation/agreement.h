@@ -16,7 +16,11 @@ namespace interflect::validation {
 struct Agreement {
   std::size_t comparisons = 0;  ///< measurements times readings
   double largest_z = 0;
-  std::size_t worst = 0;   ///< the measurement of the largest
+  std::size_t worst = 0;  ///< the measurement of the largest
+  /// Of z with the sign of a - b, over the measurements, in the weighted value: a part that one loses everywhere pulls it
+  /// away from 0 long before any z stands out.  Its noise is 1 / sqrt(measurements) where those are sampled one by one,
+  /// and up to 1 where they share their samples: it is told, not judged.
+  double mean_z = 0;
   std::size_t beyond = 0;  ///< comparisons above z_max, or not known: without finite errors
   bool agrees() const { return beyond == 0; }
 };

@@ -17,8 +17,8 @@
 namespace interflect::montecarlo {
 namespace {
 
-constexpr std::size_t shifts = 8;
-constexpr std::uint64_t first_points = 128 * shifts;
+constexpr std::size_t shifts = 16;
+constexpr std::uint64_t first_points = 64 * shifts;
 constexpr std::size_t most_rays = 1 << 12;  ///< of a tree: between mirrors that lose nothing it would not end
 
 /// Point k of a copy of the sequence: film or patch, then light.  Shifts are fixed numbers, whatever the seed.

@@ -22,7 +22,8 @@ std::optional<MaterialId> MtlLibrary::use(SceneBuilder& builder, std::span<const
                                           const std::string& name, const std::string& mesh) {
   for (const std::filesystem::path& file : files) {
     const auto& entries = entries_of(file, mesh);
-    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const MtlEntry& e) { return e.name == name; });
+    const auto entry =
+        std::find_if(entries.begin(), entries.end(), [&](const MtlEntry& e) { return e.name == trimmed(name); });
     if (entry == entries.end()) continue;
     if (const auto known = used_.find(&*entry); known != used_.end()) return known->second;
     MtlMaterial read = mtl_material(*entry, builder.scene().channels);

@@ -68,10 +68,11 @@ class MtlReading {
   }
 
   bool is_clear(double illum) {
+    if (illum != 7) return false;
     const double index = number("Ni").value_or(1), diffuse = most("Kd");
     const bool clear = diffuse <= negligible && (!entry_.find("Tf") || *colour("Tf") == Vec3::Ones()) &&
                        (!entry_.find("d") || dissolve() == 1);
-    if (illum != 7 || index == 1 || index < 0.2 || index > 5 || !clear) return false;
+    if (index == 1 || index < 0.2 || index > 5 || !clear) return false;
     leave_out_if(diffuse > 0, "Kd");
     out_.material.finish = Glass{index, 0};
     return true;

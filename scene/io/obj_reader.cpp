@@ -62,18 +62,14 @@ std::size_t lone_face_key(std::string_view text) {
 
 /// What each line that begins with "mtllib" says behind that.
 std::vector<std::string> material_files(std::string_view text) {
-  constexpr std::string_view key = "mtllib", blanks = " \t\r";
+  constexpr std::string_view key = "mtllib";
   std::vector<std::string> out;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
-    std::string_view line = text.substr(start, end - start);
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    const std::string_view line = trimmed(text.substr(start, end - start));
     start = end + 1;
-    if (!line.starts_with(key)) continue;
-    line.remove_prefix(key.size());
-    const std::size_t first = line.find_first_not_of(blanks);
-    if (first == 0 || first == std::string_view::npos) continue;
-    out.emplace_back(line.substr(first, line.find_last_not_of(blanks) + 1 - first));
+    if (line.size() <= key.size() || !line.starts_with(key)) continue;
+    if (line[key.size()] == ' ' || line[key.size()] == '\t') out.emplace_back(trimmed(line.substr(key.size())));
   }
   return out;
 }

@@ -22,6 +22,9 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// "'reflectence' is not known: did you mean 'reflectance'?", or the list of what is known where nothing is near.
 std::string unknown_word(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
 
+/// Without blanks, tabs and carriage returns at both ends.
+std::string_view trimmed(std::string_view text);
+
 /// The number that a word is, correctly rounded, with or without a plus before it; nothing where it is none.
 std::optional<double> number_of(std::string_view word);
 

@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
+#include "core/format.h"
 #include "tests/apps/program.h"
 
 // The command `compare`, as a user has it.
@@ -10,6 +13,33 @@ namespace interflect::test {
 namespace {
 
 using nlohmann::json;
+
+/// A bulb over a mirror and a floor, under a ceiling.
+constexpr const char* bulb_and_mirror = R"({
+  "format": "interflect/scene/1", "units": "m", "quantity": "radiometric",
+  "materials": {
+    "mirror": { "type": "mirror", "reflectance": 0.8 },
+    "grey": { "type": "diffuse", "reflectance": 0.5 }
+  },
+  "lights": [ { "type": "point", "name": "bulb", "position": [0.5, 0.5, 0.5], "flux": 1 } ],
+  "geometry": [
+    { "name": "mirror", "material": "mirror", "polygon": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]] },
+    { "name": "floor", "material": "grey", "polygon": [[1, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0]] },
+    { "name": "ceiling", "material": "grey", "polygon": [[0, 0, 1], [0, 1, 1], [2, 1, 1], [2, 0, 1]] }
+  ],
+  "cameras": [ { "name": "c", "eye": [1.5, 0.5, 0.9], "target": [0.5, 0.5, 0], "fov_y_deg": 60, "size": [4, 4] } ]
+})";
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+  }
+  return rows;
+}
 
 TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
   const TemporaryFolder folder;
@@ -47,6 +77,67 @@ TEST(Compare, compares_on_the_paths_that_both_find) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "path.png"));
 }
 
+// In the furnace H = 1 W/m2 everywhere, whatever the area: of each by itself, and of each held against the other.
+TEST(Compare, writes_mean_irradiances_with_their_units) {
+  const TemporaryFolder folder;
+  const Outcome outcome = interflect({"compare", shipped_scene("furnace"), "--integrators", "path,light", "--target",
+                                      "5%", "--no-pictures", "-o", folder / "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "mean z")) << outcome.out;
+  int by_itself = 0, against = 0;
+  for (const auto& row : rows_of(read_file(folder / "out/compare.csv"))) {
+    if (row[0] != "surfaces") continue;
+    ASSERT_GE(row.size(), 10u);
+    EXPECT_EQ(row[2], "W/m2");
+    EXPECT_NEAR(std::stod(row[7]), 1, 5 * std::stod(row[8]) + 1e-9) << row[1] << " by " << row[3];
+    EXPECT_LT(std::stod(row[8]), .06);
+    ++(row[4].empty() ? by_itself : against);
+  }
+  EXPECT_EQ(by_itself, 2 * 7);  // six sides and all together
+  EXPECT_EQ(against, 2 * 7);
+}
+
+TEST(Compare, lists_who_finds_nothing_that_is_asked_for) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.json", bulb_and_mirror);
+  const auto compare = [&](const char* paths) {
+    return interflect({"compare", scene, "--integrators", "path,light", "--target", "20%", "--paths", paths,
+                       "--no-pictures", "-o", folder / "out"});
+  };
+  const Outcome mirrored = compare("PSE");
+  EXPECT_EQ(mirrored.status, 0) << mirrored.err;
+  EXPECT_TRUE(contains(mirrored.out, "path does not answer surfaces: finds none of these paths, PSE")) << mirrored.out;
+  // The point's own picture is nothing that one would miss.
+  const Outcome direct = compare("PDE|PE");
+  EXPECT_EQ(direct.status, 0) << direct.err;
+  const json said = json::parse(read_file(folder / "out/compare.json"));
+  for (const json& kind : said.at("kinds"))
+    for (const json& each : kind.at("integrators")) EXPECT_EQ(each.at("missed"), "") << kind;
+}
+
+// What path tracing would miss of a point of light, a picture is refused for, unless it is left out.
+TEST(Trace, refuses_what_it_would_miss_and_draws_what_is_left) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.json", bulb_and_mirror);
+  const auto trace = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"trace", scene, "--spp", "16", "-o", folder / "picture.exr"};
+    all.insert(all.end(), more.begin(), more.end());
+    return interflect(all);
+  };
+  const Outcome refused = trace({});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "(from a point or spot, by a mirror, pane or smooth glass, by a diffuse surface)"))
+      << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "picture.exr"));
+  const std::string hint = "--paths '";
+  const std::size_t begin = refused.err.find(hint);
+  ASSERT_NE(begin, std::string::npos) << refused.err;
+  const std::size_t first = begin + hint.size(), end = refused.err.find('\'', first);
+  const Outcome left = trace({"--paths", refused.err.substr(first, end - first)});
+  EXPECT_EQ(left.status, 0) << left.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "picture.exr"));
+}
+
 TEST(Compare, takes_classes_of_paths_and_says_where_they_are_wrong) {
   const TemporaryFolder folder;
   const auto compare = [&](const std::vector<std::string>& more) {
@@ -70,6 +161,21 @@ TEST(Validate, has_its_reference_by_any_integrator) {
                   "--no-pictures", "--element-size", "0.5", "--json", "-o", folder / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(json::parse(read_file(folder / "out/validation.json")).at("integrator"), "bidirectional");
+}
+
+// One that finds less than radiosity does would say that radiosity is wrong: it is refused before the work.
+TEST(Validate, has_no_reference_that_finds_less_than_radiosity) {
+  for (const char* integrator : {"whitted", "distributed"}) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        interflect({"validate", shipped_scene("furnace"), "--integrator", integrator, "-o", folder / "out"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(contains(outcome.err, core::format("integrator '%s': an unbiased one expected that finds all that "
+                                                   "radiosity does, LD*E, also ADE",
+                                                   integrator)))
+        << outcome.err;
+    EXPECT_EQ(folder.files(), 0u);
+  }
 }
 
 }  // namespace

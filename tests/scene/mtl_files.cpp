@@ -197,7 +197,7 @@ TEST(MtlFile, is_found_beside_its_mesh_under_any_name) {
   folder.write("sub/my walls.mtl", "newmtl red paint\nKd 0.5 0.1 0.1\n");
   folder.write("sub/second.mtl", "newmtl red paint\nKd 0.9\nnewmtl blue\r\nKd 0.1 0.1 0.5\r\n");
   folder.write("sub/m.obj", std::string("mtllib my walls.mtl\nmtllib\tsecond.mtl third.mtl\n") + triangle +
-                                "usemtl red paint\nf 1 2 3\nusemtl blue\nf 1 3 2\n");
+                                "usemtl  red paint \nf 1 2 3\nusemtl blue\nf 1 3 2\n");
   const Text text{rgb, white, R"({"file": "sub/m.obj", "unmapped": "mtl"})"};
   const Scene scene = parsed(text, folder.path());  // third.mtl does not exist, and is not asked
   EXPECT_EQ(scene.material(SurfaceId{0}).reflectance[0], .5);

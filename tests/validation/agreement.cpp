@@ -43,6 +43,21 @@ TEST(Agreement, ends_at_the_largest_z_that_chance_allows) {
   EXPECT_EQ(beyond(-z - 1e-6), 1u);
 }
 
+// Each a little less, by half a standard error of the difference: none stands out, the mean does.
+TEST(Agreement, tells_of_what_is_lost_everywhere_by_the_mean_of_z) {
+  const auto scene = synthetic::scene();
+  std::vector<Estimate> a, b;
+  for (int k = 0; k < 100; ++k) {
+    const double value = 10 + k, noise = k % 2 == 0 ? 1 : -1;  // a sample of mean 0 and variance 1
+    a.push_back(known(value - 2.5 + 5 * noise, 3));
+    b.push_back(known(value, 4));
+  }
+  const Agreement lost = agreement(scene, a, b, sidak_z_max(.01, 100)), gained = agreement(scene, b, a, 4);
+  EXPECT_TRUE(lost.agrees());
+  EXPECT_NEAR(lost.mean_z, -.5, 1e-9);  // five of its own standard errors, 1 / sqrt(100)
+  EXPECT_NEAR(gained.mean_z, .5, 1e-9);
+}
+
 TEST(Agreement, knows_that_exact_answers_may_differ_by_rounding_alone_and_that_unknown_ones_do_not_agree) {
   const auto scene = synthetic::scene();
   const auto agrees = [&](const Estimate& a, const Estimate& b) {

@@ -1,0 +1,113 @@
+#include "montecarlo/integrator_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/montecarlo/rooms.h"
+#include "tests/montecarlo/statistics.h"
+
+namespace interflect::montecarlo {
+namespace {
+
+using scene::SceneBuilder;
+
+constexpr double reflects = .8;
+
+/// A point of flux 1, 1 above a square mirror of side 1, under a black ceiling so wide that it meets all that is
+/// reflected.
+scene::Scene point_over_a_mirror() {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  SceneBuilder builder({"grey"});
+  scene::Material mirror;
+  mirror.finish = scene::Mirror{test::grey(reflects)};
+  builder.add_polygon("mirror", test::parallelogram(Vec3(-.5, -.5, 0), x, y), builder.add_material(mirror));
+  const auto black = builder.add_material(test::diffuse("black", 0, 0));
+  builder.add_polygon("ceiling", test::parallelogram(Vec3(-5, -5, 1.5), 10 * y, 10 * x), black);
+  builder.scene().lights.points.push_back({"p", z, test::grey(1 / (4 * pi))});
+  builder.scene().cameras.push_back({"c", Vec3(0, 0, 1.2), Vec3(0, 0, 1.5), x, 60, 1, 1});
+  return builder.finish();
+}
+
+std::vector<measure::Measurement> ceiling_of(const scene::Scene& scene) {
+  return {measure::Flux{measure::patches_of(scene, test::surface_named(scene, "ceiling"), scene::Side::front)}};
+}
+
+// Light tracing finds what the mirror sends up, R times its solid angle over 4 pi, asin(1/5) / pi; path tracing does not:
+// they are held against each other without it.
+TEST(IntegratorComparison, holds_each_pair_against_each_other_on_what_both_find) {
+  const scene::Scene scene = point_over_a_mirror();
+  IntegratorSettings settings;
+  settings.samples = 200'000;
+  core::LocalRun run(1, 2);
+  const auto comparison = compare_integrators(scene, ceiling_of(scene), {"path", "light"}, settings, run.get());
+  ASSERT_EQ(comparison.trials.size(), 2u);
+  EXPECT_EQ(comparison.trials[0].missed, "PSE");
+  EXPECT_EQ(comparison.trials[1].missed, "");
+  ASSERT_EQ(comparison.pairs.size(), 1u);
+  const IntegratorPair& pair = comparison.pairs[0];
+  EXPECT_FALSE(pair.common.contains("PSE"));
+  EXPECT_TRUE(pair.common.contains("PE"));
+  EXPECT_EQ(pair.of_a[0].value, comparison.trials[0].found[0].value);  // not once more
+  const auto apart = [](const Estimate& a, const Estimate& b) {
+    return std::make_pair(a.value[0] - b.value[0], 4 * std::hypot(a.standard_error[0], b.standard_error[0]));
+  };
+  const auto [differ, noise] = apart(pair.of_a[0], pair.of_b[0]);
+  EXPECT_NEAR(differ, 0, noise);
+  const auto [mirrored, of_both] = apart(comparison.trials[1].found[0], pair.of_b[0]);
+  EXPECT_NEAR(mirrored, reflects * std::asin(.2) / pi, of_both);
+  EXPECT_LT(of_both, .01);
+}
+
+TEST(IntegratorComparison, asks_nobody_for_what_it_does_not_find) {
+  const scene::Scene scene = point_over_a_mirror();
+  IntegratorSettings settings;
+  settings.samples = 1000;
+  settings.paths = measure::PathClasses::of("PSE");
+  core::LocalRun run(1, 2);
+  const auto comparison = compare_integrators(scene, ceiling_of(scene), {"path", "light"}, settings, run.get());
+  EXPECT_EQ(comparison.trials[0].refused, "finds none of these paths, PSE");
+  EXPECT_EQ(comparison.trials[1].refused, "");
+  EXPECT_TRUE(comparison.pairs.empty());
+}
+
+// The point's own picture is nothing, so that nobody misses it.
+TEST(IntegratorComparison, misses_no_pictures_of_points) {
+  const scene::Scene scene = point_over_a_mirror();
+  IntegratorSettings settings;
+  settings.samples = 1000;
+  settings.paths = measure::PathClasses::of("PE|PDE");
+  core::LocalRun run(1, 2);
+  const std::vector<measure::Measurement> pixel{measure::PixelRadiance{{0}, 0, 0}};
+  const auto comparison = compare_integrators(scene, pixel, {"path", "light"}, settings, run.get());
+  for (const IntegratorTrial& trial : comparison.trials) EXPECT_EQ(trial.missed, "") << trial.integrator;
+}
+
+TEST(IntegratorComparison, has_an_efficiency_that_counts_noise_and_bias) {
+  SceneBuilder builder({"grey"});
+  const scene::Scene scene = builder.finish();
+  const auto known = [](double value, double standard_error, double bound) {
+    Estimate e = unbiased_estimate(test::grey(value), test::grey(standard_error), 100);
+    e.error_bound = test::grey(bound);
+    return e;
+  };
+  IntegratorTrial trial{"some", "", "", measure::PathClasses::all(), {}, 2};
+  EXPECT_EQ(trial.efficiency(scene), 0);  // knows nothing
+  trial.found = {known(10, 1, 0), known(20, 2, 0), known(0, 0, 0)};
+  EXPECT_NEAR(trial.efficiency(scene), 1 / (.01 * 2), 1e-9);
+  trial.found[0] = known(10, .6, .8);  // .36 + .64 = 1
+  EXPECT_NEAR(trial.efficiency(scene), 1 / (.01 * 2), 1e-9);
+  trial.found[1] = known(20, 6, 0);  // (.01 + .09) / 2
+  EXPECT_NEAR(trial.efficiency(scene), 1 / (.05 * 2), 1e-9);
+}
+
+TEST(IntegratorComparison, has_nothing_where_it_is_stopped_at_once) {
+  const scene::Scene scene = point_over_a_mirror();
+  std::stop_source source;
+  source.request_stop();
+  core::LocalRun run(1, 2);
+  run.get().stop = source.get_token();
+  EXPECT_THROW(compare_integrators(scene, ceiling_of(scene), {"path", "light"}, {}, run.get()), core::Interrupted);
+}
+
+}  // namespace
+}  // namespace interflect::montecarlo
