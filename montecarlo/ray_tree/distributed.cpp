@@ -28,7 +28,7 @@ class Trees final : public SampledMeasurements {
  public:
   Trees(const scene::Scene& scene, const raycast::RayCaster& caster, const measure::PathClasses& paths,
         std::span<const measure::Measurement> asked)
-      : tree_(scene, caster), paths_(paths) {
+      : tree_(scene, caster, paths) {
     for (const measure::Measurement& each : asked) measured_.emplace_back(scene, each);
   }
 
@@ -67,18 +67,17 @@ class Trees final : public SampledMeasurements {
     raycast::Ray ray{};
     Spectrum weight{1};
     double squeezed = 1;
-    measure::PathClasses::FromEye letters = 0;
+    RayTree::Letters letters = 0;
     Place from{Vec3::Zero(), Vec3::Zero()};  ///< where a glossy direction was drawn
     double pdf_solid_angle = 0;              ///< of that; 0: there is none but this
   };
 
   Spectrum sample(const Measured& of, core::RandomNumbers& numbers) const {
-    const auto letters = paths_.after(paths_.before_eye(), measure::PathLetter::eye);
     if (of.place) {
       const Receiver at = of.place->draw(numbers);
       numbers.jump(first_vertex_block);
       return of.scale * pi *
-             lit({at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_}, letters, false, numbers);
+             lit({at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_}, tree_.at_eye(), false, numbers);
     }
     numbers.jump(film_block);
     const double a = numbers.next(), b = numbers.next();
@@ -88,7 +87,7 @@ class Trees final : public SampledMeasurements {
     if (!ray) return Spectrum::zero();
     Branch root;
     root.ray = {ray->origin, ray->direction};
-    root.letters = letters;
+    root.letters = tree_.at_eye();
     return seen(root, numbers);
   }
 
@@ -102,7 +101,7 @@ class Trees final : public SampledMeasurements {
       for (const auto& each : met.shining) found += branch.weight * shone(branch, each);
       if (!met.at) continue;
       numbers.jump(block);
-      const auto with_letter = paths_.after(branch.letters, letter_of(*met.at->bsdf));
+      const auto with_letter = tree_.after(branch.letters, letter_of(*met.at->bsdf));
       const bool glossy = met.at->bsdf->glossy();
       found += branch.weight * lit(*met.at, with_letter, glossy, numbers);
       go_on(branch, *met.at, glossy, with_letter, numbers, branches);
@@ -111,10 +110,10 @@ class Trees final : public SampledMeasurements {
   }
 
   /// All delta ways, and one that a glossy surface draws.
-  void go_on(const Branch& branch, const TreeVertex& at, bool glossy, measure::PathClasses::FromEye with_letter,
+  void go_on(const Branch& branch, const TreeVertex& at, bool glossy, RayTree::Letters with_letter,
              core::RandomNumbers& numbers, std::vector<Branch>& branches) const {
     const double lobe = numbers.next(), u = numbers.next(), v = numbers.next();
-    const auto follow = [&](const Scattered& part, measure::PathClasses::FromEye letters, double pdf) {
+    const auto follow = [&](const Scattered& part, RayTree::Letters letters, double pdf) {
       Branch next{
           at.ray(part.way), branch.weight * part.weight, branch.squeezed * part.squeezed, letters, at.place(), pdf};
       if (part.straight) next.from = branch.from, next.pdf_solid_angle = branch.pdf_solid_angle;
@@ -126,19 +125,14 @@ class Trees final : public SampledMeasurements {
     DeltaParts parts;
     at.bsdf->delta_parts(at.to_eye, Walk::from_eye, parts);
     for (const Scattered& part : parts)
-      follow(part, part.straight ? branch.letters : paths_.after(branch.letters, measure::PathLetter::specular), 0);
+      follow(part, part.straight ? branch.letters : tree_.after(branch.letters, measure::PathLetter::specular), 0);
     if (!glossy) return;
     const auto drawn = at.bsdf->sample(at.to_eye, {lobe, u, v}, Walk::from_eye);
     if (drawn && !drawn->delta) follow(*drawn, with_letter, drawn->pdf_solid_angle);
   }
 
-  bool counts(measure::PathClasses::FromEye letters, std::optional<std::uint32_t> light) const {
-    const auto letter = light ? letter_of(tree_.lights()[*light]) : measure::PathLetter::area;
-    return measure::PathClasses::complete(paths_.after(letters, letter));
-  }
-
   Spectrum shone(const Branch& branch, const RayTree::Met::Shining& by) const {
-    if (!counts(branch.letters, by.light)) return Spectrum::zero();
+    if (!tree_.counts(branch.letters, by.light)) return Spectrum::zero();
     if (branch.pdf_solid_angle == 0 || !by.light) return by.radiance;
     const double by_light =
         tree_.lights().probability(*by.light, branch.from) *
@@ -147,12 +141,12 @@ class Trees final : public SampledMeasurements {
   }
 
   /// By one light that is picked.
-  Spectrum lit(const TreeVertex& at, measure::PathClasses::FromEye letters, bool rays_find_it_too,
+  Spectrum lit(const TreeVertex& at, RayTree::Letters letters, bool rays_find_it_too,
                core::RandomNumbers& numbers) const {
     const double pick = numbers.next(), u = numbers.next(), v = numbers.next();
     if (at.bsdf->only_delta() || dark()) return Spectrum::zero();
     const auto [light, probability] = tree_.lights().pick(at.place(), pick);
-    if (!counts(letters, light)) return Spectrum::zero();
+    if (!tree_.counts(letters, light)) return Spectrum::zero();
     const auto found = tree_.lit(at, light, u, v);
     if (!found) return Spectrum::zero();
     if (found->by_light == 0) return found->scattered / probability;
@@ -160,7 +154,6 @@ class Trees final : public SampledMeasurements {
   }
 
   RayTree tree_;
-  const measure::PathClasses& paths_;
   std::vector<Measured> measured_;
   Lambert receiver_{Spectrum(1)};
 };

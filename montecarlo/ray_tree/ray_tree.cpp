@@ -1,6 +1,12 @@
 #include "montecarlo/ray_tree/ray_tree.h"
 
+#include "montecarlo/path_letters.h"
+
 namespace interflect::montecarlo {
+
+bool RayTree::counts(Letters letters, std::optional<std::uint32_t> light) const {
+  return measure::PathClasses::complete(after(letters, light ? letter_of(lights_[*light]) : measure::PathLetter::area));
+}
 
 RayTree::Met RayTree::met(const raycast::Ray& ray) const {
   Met found;

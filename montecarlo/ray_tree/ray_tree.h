@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "measure/path_classes.h"
 #include "montecarlo/sight.h"
 #include "montecarlo/warp.h"
 
@@ -23,12 +24,19 @@ struct TreeVertex {
 /// are, where a path takes one of them.
 class RayTree {
  public:
-  /// Both must outlive it.
-  RayTree(const scene::Scene& scene, const raycast::RayCaster& caster)
-      : scene_(scene), lights_(scene), optics_(scene), sight_(caster, lights_, optics_) {}
+  /// @param paths  that count.  All must outlive it
+  RayTree(const scene::Scene& scene, const raycast::RayCaster& caster, const measure::PathClasses& paths)
+      : scene_(scene), paths_(paths), lights_(scene), optics_(scene), sight_(caster, lights_, optics_) {}
 
   const scene::Scene& scene() const { return scene_; }
   const LightSet& lights() const { return lights_; }
+
+  /// What a ray has met, from the eye on.
+  using Letters = measure::PathClasses::FromEye;
+  Letters at_eye() const { return after(paths_.before_eye(), measure::PathLetter::eye); }
+  Letters after(Letters letters, measure::PathLetter letter) const { return paths_.after(letters, letter); }
+  /// Whether paths count that end so at that light; without one, at a surface that shines and is none.
+  bool counts(Letters letters, std::optional<std::uint32_t> light) const;
 
   /// What shines towards a ray's origin from where it ends, and where it may go on.
   struct Met {
@@ -54,6 +62,7 @@ class RayTree {
 
  private:
   const scene::Scene& scene_;
+  const measure::PathClasses& paths_;
   LightSet lights_;
   SurfaceOptics optics_;
   Sight sight_;

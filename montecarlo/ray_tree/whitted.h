@@ -15,7 +15,7 @@ struct WhittedSettings {
   std::uint64_t max_samples = 1u << 16;
   std::string intersector = "embree";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that are asked for: it has no others than its own
-  double least_weight = 1e-4;                                ///< a ray that counts less is not followed
+  double least_weight = 1e-6;                                ///< a ray that counts less is not followed
 };
 
 /// Whitted's ray tracing [1980]: from a pixel, rays go on at mirrors and smooth boundaries, both reflected and refracted,
@@ -24,12 +24,15 @@ struct WhittedSettings {
 ///
 ///   L(D|G)?S*E  of pixels,   LE  of patches, fluxes and points.
 ///
-/// Deterministic: points of the film, or of a patch, and of the lights are those of a fixed sequence, frac(s + k a_j) with
-/// a_j = g^-(j+1) and g the root of g^5 = g + 1 [Roberts 2018], in sixteen copies, each with shifts s of its own.  Its
-/// mean differs from the integral as log N / N where that is smooth.  Standard errors are 0; the error bound, a claim
-/// that is estimated, is how far the mean of any copy is from that of all, and what was not followed times the brightest
-/// found.  Were copies normal, the mean would be off by more once in 400 000 times (of eight copies once in 390, which
-/// every picture has).
+/// Deterministic: points of the film, or of a patch, of the lights and of the lens are Sobol's in six dimensions, in
+/// sixteen copies that are scrambled by fixed numbers of their own.  Standard errors are 0; the error bound, a claim that
+/// is estimated, is how far the mean of any copy is from that of all, and
+///
+///   sum of the weights that were not followed  *  L_max
+///
+/// where L_max is the brightest of all lamps and of what was seen; the sun and the sky count where they were.  Were
+/// copies normal, the mean would be off by more once in 400 000 times (of eight copies once in 390, which every picture
+/// has).
 class Whitted final : public measure::Method {
  public:
   explicit Whitted(WhittedSettings settings = {}) : settings_(std::move(settings)) {}

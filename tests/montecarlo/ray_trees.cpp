@@ -1,4 +1,4 @@
-#include "core/fresnel.h"
+#include "montecarlo/bsdf/of_material.h"
 #include "montecarlo/ray_tree/distributed.h"
 #include "montecarlo/ray_tree/whitted.h"
 #include "tests/montecarlo/rooms.h"
@@ -102,11 +102,100 @@ TEST(RayTrees, know_the_light_of_a_ball) {
       const measure::Measurement asked =
           measure::PointIrradiance{Vec3::Zero(), Vec3(std::sin(tilt), 0, std::cos(tilt)), {}};
       core::LocalRun run(1);
-      expect_within(Whitted({.target = 1e-3, .target_floor = 0, .paths = straight}).answer(scene, {&asked, 1}, run.get())[0], truth, 5e-3,
-                    "whitted");
+      expect_within(
+          Whitted({.target = 1e-3, .target_floor = 0, .paths = straight}).answer(scene, {&asked, 1}, run.get())[0],
+          truth, 5e-3, "whitted");
       expect_within(Distributed({.samples = 40'000, .paths = straight}).answer(scene, {&asked, 1}, run.get())[0], truth,
                     .05, "distributed");
     }
+  }
+}
+
+// Between two mirrors to a lamp at their end, by four reflections: R⁴ L.  What is cut is no more than the bound says.
+TEST(RayTrees, count_reflections_and_bound_what_they_cut) {
+  SceneBuilder builder({"grey"});
+  const auto mirror = with(builder, scene::Mirror{test::grey(.8)});
+  builder.add_polygon("one", test::parallelogram(Vec3(0, -1, -1), 2 * y, 6 * z), mirror);
+  builder.add_polygon("other", test::parallelogram(Vec3(1, -1, -1), 2 * y, 6 * z), mirror);
+  builder.add_polygon("lamp", test::parallelogram(Vec3(0, -1, 4), 2 * y, x),
+                      builder.add_material(test::diffuse("l", 0, 1)));
+  look(builder, Vec3(.5, 0, 0), Vec3(1, 0, .5), y);
+  const scene::Scene scene = builder.finish();
+  const double truth = .8 * .8 * .8 * .8 * inv_pi;
+  expect_within(pixel(Whitted(), scene), truth, 1e-9, "whitted");
+  expect_within(pixel(Distributed({.samples = 10'000}), scene), truth, 5e-3, "distributed");
+  for (const double least : {.9, .7, .6, .5}) {
+    const Estimate cut = pixel(Whitted({.samples = 4096, .least_weight = least}), scene);
+    EXPECT_EQ(cut.value[0], 0) << least;
+    EXPECT_GE(cut.error_bound[0], truth) << least;
+    EXPECT_LE(cut.error_bound[0], 1.01 * least * inv_pi) << least;
+  }
+}
+
+// What loses nothing cannot be seen where all walls are equally bright; what loses a tenth can.
+TEST(RayTrees, do_not_see_what_loses_nothing_in_a_furnace) {
+  scene::Material white;
+  white.finish = scene::Plastic{1.5}, white.reflectance = test::grey(1);
+  const auto of = [](scene::Finish finish) {
+    scene::Material material;
+    material.finish = std::move(finish);
+    return material;
+  };
+  const std::vector<std::pair<std::string, scene::Material>> kinds{
+      {"mirror", of(scene::Mirror{test::grey(1)})},
+      {"metal", of(scene::Metal{test::grey(1), .4})},
+      {"glass", of(scene::Glass{1.5, 0})},
+      {"pane", of(scene::Pane{test::grey(1)})},
+      {"plastic", white},
+      {"lossy", of(scene::Mirror{test::grey(.9)})},
+      {"lossy metal", of(scene::Metal{test::grey(.9), .4})}};
+  for (const auto& [name, material] : kinds) {
+    SceneBuilder builder({"grey"});
+    builder.add_box("room", {Vec3(0, 0, 0), Vec3(3, 2, 2)}, builder.add_material(test::diffuse("w", 0, 1)),
+                    SceneBuilder::Facing::inward);
+    scene::Material both_sides = material;
+    both_sides.sides = scene::Sides::both;
+    builder.add_box("block", {Vec3(1.6, .6, .6), Vec3(2.4, 1.3, 1.2)}, builder.add_material(both_sides));
+    builder.scene().cameras.push_back({"c", Vec3(.3, .5, 1.5), Vec3(2, .95, .9), z, 40, 1, 1});
+    const scene::Scene scene = builder.finish();
+    // A block that is convex scatters once what is not delta: none of its faces sees another from without.
+    const auto paths = measure::PathClasses::of("A(D|G)?S*E");
+    const Estimate by_chance = pixel(Distributed({.samples = 100'000, .paths = paths}), scene),
+                   fixed = pixel(Whitted({.paths = paths}), scene);
+    if (name.starts_with("lossy")) {
+      for (const Estimate& each : {by_chance, fixed})
+        EXPECT_GT(inv_pi - each.value[0], 10 * each.standard_error[0] + each.error_bound[0]) << name;
+    } else {
+      expect_within(by_chance, inv_pi, 1e-2, name + " distributed");
+      expect_within(fixed, inv_pi, 2e-2, name + " whitted");
+    }
+  }
+}
+
+// A rough metal plate lit by a square lamp, seen at 45 degrees: int f L cos cos' / d² dA over the lamp, by midpoints.
+TEST(RayTrees, reflect_a_lamp_in_a_glossy_plate_as_its_quadrature_does) {
+  for (const double alpha : {.15, .5}) {
+    SceneBuilder builder({"grey"});
+    scene::Material metal;
+    metal.finish = scene::Metal{test::grey(.7), alpha};
+    builder.add_polygon("plate", test::parallelogram(Vec3(-1, -1, 0), 2 * x, 2 * y), builder.add_material(metal));
+    builder.add_polygon("lamp", test::parallelogram(Vec3(.3, -.4, 1), .8 * y, .6 * x),
+                        builder.add_material(test::diffuse("l", 0, 1)));
+    look(builder, Vec3(-1, 0, 1), Vec3::Zero(), y);
+    const scene::Scene scene = builder.finish();
+    const auto bsdf = bsdf_of(metal);
+    const Vec3 to_eye = Vec3(-1, 0, 1).normalized();
+    constexpr int n = 300;
+    double truth = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const Vec3 on(.3 + .6 * (i + .5) / n, -.4 + .8 * (j + .5) / n, 1);
+        const Vec3 way = on.normalized();
+        truth += bsdf->f(way, to_eye)[0] * inv_pi * way.z() * way.z() / on.squaredNorm() * (.6 * .8 / (n * n));
+      }
+    const auto paths = measure::PathClasses::of("AGE");
+    expect_within(pixel(Distributed({.samples = 100'000, .paths = paths}), scene), truth, 2e-2, "distributed");
+    expect_within(pixel(Whitted({.target_floor = 0, .paths = paths}), scene), truth, 2e-2, "whitted");
   }
 }
 
@@ -117,11 +206,11 @@ TEST(RayTrees, agree_with_path_tracing_of_their_classes) {
   for (std::uint32_t camera = 0; camera < 5; ++camera)
     for (const int k : {0, 1, 2}) asked.push_back(measure::PixelRadiance{{camera}, 1 + (k == 1), 1 + (k == 2)});
   const auto distributed = measure::PathClasses::of("L(D|G)?(S|G)*E"), whitted = measure::PathClasses::of("L(D|G)?S*E");
-  test::expect_same(Distributed({.samples = 100'000, .paths = distributed}),
-                    PathTracer({.samples = 200'000, .paths = distributed}), scene, asked, .1);
+  test::expect_same(Distributed({.samples = 60'000, .paths = distributed}),
+                    PathTracer({.samples = 100'000, .paths = distributed}), scene, asked, .1);
   core::LocalRun run(1);
   const auto known = PathTracer({.samples = 200'000, .paths = whitted}).answer(scene, asked, run.get()),
-             found = Whitted({.paths = whitted}).answer(scene, asked, run.get());
+             found = Whitted({.max_samples = 1u << 15, .paths = whitted}).answer(scene, asked, run.get());
   const double limit = test::critical_z(test::alpha, 2 * asked.size());
   int well_known = 0;
   for (std::size_t m = 0; m < asked.size(); ++m)
@@ -200,6 +289,27 @@ TEST(RayTrees, have_the_same_bits_for_any_number_of_threads) {
         EXPECT_EQ(each[m].value, found[0][m].value);
         EXPECT_EQ(each[m].error_bound, found[0][m].error_bound);
       }
+  }
+}
+
+// What is drawn on the lens says nothing of what is drawn on the lights: a floor out of focus beside a low lamp.
+TEST(Whitted, draws_the_lens_and_the_lights_apart) {
+  SceneBuilder builder({"grey"});
+  builder.add_polygon("floor", test::parallelogram(Vec3(-4, -4, 0), 8 * x, 8 * y),
+                      builder.add_material(test::diffuse("f", .6, 0)));
+  builder.add_polygon("lamp", test::parallelogram(Vec3(.35, -.3, 0), .3 * z, .6 * y),
+                      builder.add_material(test::diffuse("l", 0, 1)));
+  for (const Vec3& up : {x, y})
+    builder.scene().cameras.push_back({"c" + std::to_string(builder.scene().cameras.size()), Vec3(0, 0, 2),
+                                       Vec3(0, 0, 0), up, scene::Projection(scene::ThinLens{.1, .3, 1}), 1, 1});
+  const scene::Scene scene = builder.finish();
+  const auto once = measure::PathClasses::of("ADE");
+  for (const std::uint32_t camera : {0u, 1u}) {
+    const Estimate found = pixel(Whitted({.target = 1e-3, .target_floor = 0, .paths = once}), scene, camera);
+    const Estimate known = pixel(Distributed({.samples = 1'000'000, .paths = once}), scene, camera);
+    EXPECT_NEAR(found.value[0], known.value[0], found.error_bound[0] + 4 * known.standard_error[0]) << camera;
+    EXPECT_LT(found.error_bound[0], 5e-3 * found.value[0]);
+    EXPECT_LT(known.standard_error[0], 2e-3 * known.value[0]);
   }
 }
 
