@@ -20,17 +20,20 @@ class Symmetrised {
   Symmetrised(const System& system, Run& run)
       : system_(system),
         Q_(system.R.root()),
-        root_(Eigen::Map<const Eigen::ArrayXd>(system.K.gram().data(), system.e.rows()).sqrt()),
+        by_root_(Eigen::Map<const Eigen::VectorXd>(system.K.gram().data(), system.e.rows())
+                     .cwiseSqrt()
+                     .cwiseInverse()
+                     .replicate(1, system.e.cols())),
         run_(run) {}
 
   /// Q S G^1/2 b
   ColumnMatrix reflected(const ColumnMatrix& b) const {
     ColumnMatrix h(b.rows(), b.cols());
     system_.K.apply(b, h, run_);
-    h.array().colwise() /= root_;
+    h = h.cwiseProduct(by_root_);
     return times_Q(h);
   }
-  ColumnMatrix radiosity_of(const ColumnMatrix& t) const { return times_Q(t).array().colwise() / root_; }
+  ColumnMatrix radiosity_of(const ColumnMatrix& t) const { return times_Q(t).cwiseProduct(by_root_); }
 
  private:
   ColumnMatrix times_Q(const ColumnMatrix& t) const {
@@ -41,9 +44,26 @@ class Symmetrised {
 
   const System& system_;
   Reflection Q_;
-  Eigen::ArrayXd root_;  ///< of G
+  ColumnMatrix by_root_;  ///< G^-1/2, for each column
   Run& run_;
 };
+
+/// t + a d and r - a c, a number a column: in one pass.
+void step_along(const OfColumns& a, const ColumnMatrix& d, const ColumnMatrix& c, ColumnMatrix& t, ColumnMatrix& r) {
+  const Index rows = t.rows(), columns = t.cols();
+  for (Index i = 0; i < rows; ++i)
+    for (Index k = 0; k < columns; ++k) {
+      t(i, k) += a(k) * d(i, k);
+      r(i, k) -= a(k) * c(i, k);
+    }
+}
+
+/// d = r + a d
+void turn(const OfColumns& a, const ColumnMatrix& r, ColumnMatrix& d) {
+  const Index rows = d.rows(), columns = d.cols();
+  for (Index i = 0; i < rows; ++i)
+    for (Index k = 0; k < columns; ++k) d(i, k) = r(i, k) + a(k) * d(i, k);
+}
 
 }  // namespace
 
@@ -66,10 +86,9 @@ SolverReport ConjugateGradients::advance(const System& system, SolverState& stat
   for (bool more = true; more; products = 1) {
     const ColumnMatrix changed = direction - A.reflected(A.radiosity_of(direction));
     const OfColumns step = ratio(size, dots(direction, changed));
-    t += direction * step.asDiagonal();
-    residual -= changed * step.asDiagonal();
+    step_along(step, direction, changed, t, residual);
     const OfColumns next = dots(residual, residual);
-    direction = residual + direction * ratio(next, size).asDiagonal();
+    turn(ratio(next, size), residual, direction);
     size = next;
     x = system.e + A.radiosity_of(t);
     const double relative = relative_size(A.radiosity_of(residual), x);

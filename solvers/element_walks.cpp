@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "core/random.h"
 #include "solvers/potential.h"
@@ -74,9 +75,21 @@ double ElementWalks::going_on(Index at, double by_rho, const double* by_column) 
 
 template <class Step, class Hit>
 std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) const {
+  const Index columns = wave.carried.cols();
+  switch (columns) {  // loops over so many are unrolled where that is known beforehand
+    case 1:
+      return walk(std::move(wave), step, hit, std::integral_constant<Index, 1>{});
+    case 3:
+      return walk(std::move(wave), step, hit, std::integral_constant<Index, 3>{});
+    default:
+      return walk(std::move(wave), step, hit, columns);
+  }
+}
+
+template <class Step, class Hit, class Count>
+std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit, Count columns) const {
   constexpr std::size_t ahead = 16;  // places that are fetched while others are looked at
   std::uint64_t draws = 0;
-  const Index columns = wave.carried.cols();
   std::vector<Index> arrived(wave.size());
   std::vector<double> reflected(static_cast<std::size_t>(columns));
   while (wave.size() > 0) {
@@ -87,7 +100,7 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
       if (k + ahead < wave.size()) __builtin_prefetch(place(std::max<Index>(0, arrived[k + ahead])));
       const Index at = arrived[k];
       if (at == TransitionSampler::nowhere) continue;
-      const double *carried = &wave.carried(static_cast<Index>(k), 0), *rho = place(at);
+      const double *carried = wave.carried.data() + static_cast<Index>(k) * columns, *rho = place(at);
       double all = 0, left = 0;
       for (Index c = 0; c < columns; ++c) {
         const double value = rho[c] * carried[c];
@@ -98,12 +111,12 @@ std::uint64_t ElementWalks::walk(Wave wave, const Step& step, const Hit& hit) co
       const double on = worth_.size() == 0 ? by_rho : going_on(at, by_rho, reflected.data());
       const bool survives = wave.on[k] < on;
       if (score_ == Score::collision)
-        hit(wave.start[k], at, carried, reflected.data(), 1);
+        hit(wave.start[k], at, carried, reflected.data(), 1, columns);
       else if (survives == (score_ == Score::survival))
-        hit(wave.start[k], at, carried, reflected.data(), 1 / (survives ? on : 1 - on));
+        hit(wave.start[k], at, carried, reflected.data(), 1 / (survives ? on : 1 - on), columns);
       // Kept first and counted then: which of them goes on cannot be foretold, and a branch would be.
       wave.keep(k, kept, at);
-      double* next = &wave.carried(static_cast<Index>(kept), 0);
+      double* next = wave.carried.data() + static_cast<Index>(kept) * columns;
       const double by = 1 / std::max(on, std::numeric_limits<double>::min());
       for (Index c = 0; c < columns; ++c) next[c] = by * reflected[static_cast<std::size_t>(c)];
       kept += survives;
@@ -153,12 +166,12 @@ ElementWalks::Wave ElementWalks::births(std::span<const WalkStart> starts, const
 
 template <class Step>
 std::uint64_t ElementWalks::shoot_by(const Step& step, Wave wave, ColumnMatrix& sum) const {
-  const Index columns = sum.cols();
-  return walk(std::move(wave), step, [&](Index, Index i, const double*, const double* reflected, double score) {
-    double* to = &sum(i, 0);
+  const auto hit = [&](Index, Index i, const double*, const double* reflected, double score, auto columns) {
+    double* to = sum.data() + i * columns;
     const double share = score * place(i)[columns];
     for (Index c = 0; c < columns; ++c) to[c] += share * reflected[c];
-  });
+  };
+  return walk(std::move(wave), step, hit);
 }
 
 std::uint64_t ElementWalks::shoot(std::span<const WalkStart> starts, const WalkNumbers& numbers,
@@ -187,20 +200,21 @@ std::uint64_t ElementWalks::gather_by(std::span<const WalkStart> starts, const W
 std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const WalkNumbers& numbers,
                                    const Scored& scored) const {
   Row of_one(system_.e.cols());
-  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, const double*, double score) {
-    for (Index c = 0; c < of_one.size(); ++c) of_one(c) = score * carried[c] * system_.e(at, c);
-    scored(start, of_one, at);
-  });
+  return gather_by(starts, numbers,
+                   [&](Index start, Index at, const double* carried, const double*, double score, auto) {
+                     for (Index c = 0; c < of_one.size(); ++c) of_one(c) = score * carried[c] * system_.e(at, c);
+                     scored(start, of_one, at);
+                   });
 }
 
 std::uint64_t ElementWalks::gather(std::span<const WalkStart> starts, const WalkNumbers& numbers,
                                    ColumnMatrix& sum) const {
-  const Index columns = sum.cols();
-  return gather_by(starts, numbers, [&](Index start, Index at, const double* carried, const double*, double score) {
+  const auto hit = [&](Index start, Index at, const double* carried, const double*, double score, auto columns) {
     const double* e = system_.e.data() + at * system_.e.outerStride();
-    double* to = &sum(start, 0);
+    double* to = sum.data() + start * columns;
     for (Index c = 0; c < columns; ++c) to[c] += score * carried[c] * e[c];
-  });
+  };
+  return gather_by(starts, numbers, hit);
 }
 
 }  // namespace interflect::solvers

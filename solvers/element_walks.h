@@ -17,7 +17,7 @@ struct WalkStart {
   std::uint64_t walk;  ///< whose numbers it has
 };
 
-/// Collects walks and hands them over some hundreds at a time, as they are fastest.
+/// Collects walks and hands them over some thousands at a time, as they are fastest.
 class WalkBatch {
  public:
   /// @param walk  what they do.  @return  draws
@@ -34,7 +34,7 @@ class WalkBatch {
   }
 
  private:
-  static constexpr std::size_t at_once = 512;
+  static constexpr std::size_t at_once = 2048;
   std::function<std::uint64_t(std::span<const WalkStart>)> walk_;
   std::vector<WalkStart> starts_;
   std::uint64_t draws_ = 0;
@@ -112,10 +112,12 @@ class ElementWalks {
   /// The reflectance of an unknown's columns, and the reciprocal of its area.
   const double* place(Index a) const { return places_.data() + a * places_.cols(); }
 
-  /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, reflected, score) is
-  /// told where one scores, and of the columns that it carries and would carry on, score having the mean 1.
+  /// Until none goes on: step(wave, arrived) says where draws lead; hit(start, unknown, carried, reflected, score,
+  /// columns) is told where one scores, and of the columns that it carries and would carry on, score having the mean 1.
   template <class Step, class Hit>
   std::uint64_t walk(Wave wave, const Step& step, const Hit& hit) const;
+  template <class Step, class Hit, class Count>
+  std::uint64_t walk(Wave wave, const Step& step, const Hit& hit, Count columns) const;
   template <class Step>
   std::uint64_t shoot_by(const Step& step, Wave wave, ColumnMatrix& sum) const;
   template <class Hit>

@@ -57,20 +57,18 @@ constexpr int rows_in_registers() {
 #endif
 }
 
-template <int C, TileWork work>
-constexpr bool fetches = work != TileWork::two_tiles || C > 1;
-
-/// R rows from `row` on.
+/// R rows of tile t from `row` on.
 template <int C, int R, TileWork work>
-[[gnu::always_inline]] inline void rows_product(const TileRows& of, Index row) {
+[[gnu::always_inline]] inline void rows_product(const TileRows& of, Index t, Index row) {
   constexpr bool receives = work != TileWork::send, sends = work != TileWork::receive;
   // Member by member, each as it was written: a copy of them all at once would wait for all stores before it, and those
   // for K.  What is stored in y could lie in `of`, as far as the compiler knows.
-  const double* in = of.receiving + (receives ? row * tile_size : 0);
-  const double* out = work == TileWork::one_tile ? in : of.sending + (sends ? row * tile_size : 0);
-  const double* next = (receives ? in : out) + tile_entries;
-  const double* x_columns = of.x;
-  double* y_columns = of.y;
+  const Index at = t * part_entries + row * tile_size;
+  const double* in = of.receiving + (receives ? at : 0);
+  const double* out = work == TileWork::one_tile ? in : of.sending + (sends ? at : 0);
+  const double* next = (receives ? in : out) + part_entries;
+  const double* x_columns = of.x + (receives ? t * of.step : 0);
+  double* y_columns = of.y + (sends ? t * of.step : 0);
   double* lanes = of.lanes + (receives ? row * tile_lanes : 0);
   const Index stride = of.stride;
   Lanes s[R][C];
@@ -82,8 +80,9 @@ template <int C, int R, TileWork work>
     });
   });
   for (Index j = 0; j < tile_size; j += tile_lanes) {
-    // The tile behind this one, line by line, into the second-level cache: K is read once and from memory.
-    if constexpr (fetches<C, work>) each<R>([&](auto r) { __builtin_prefetch(next + R * j + r * tile_lanes, 0, 2); });
+    // The part behind this one, line by line, into the first-level cache: K is read once and from memory, and what only
+    // came to the second level would wait once more, in the queue that those from memory fill.
+    each<R>([&](auto r) { __builtin_prefetch(next + R * j + r * tile_lanes, 0, 3); });
     Lanes k[R], m[R];
     each<R>([&](auto r) {
       if constexpr (receives) load(k[r], in + r * tile_size + j);
@@ -113,8 +112,9 @@ template <int C, int R, TileWork work>
 template <int C, TileWork work>
 void product(const TileRows& of) {
   constexpr int R = rows_in_registers<C>();
-  const Index rows = of.rows;
-  for (Index row = 0; row < rows; row += R) rows_product<C, R, work>(of, row);
+  const Index rows = of.rows, tiles = of.tiles;
+  for (Index t = 0; t < tiles; ++t)
+    for (Index row = 0; row < rows; row += R) rows_product<C, R, work>(of, t, row);
 }
 
 template <int C>

@@ -38,14 +38,17 @@ TileWork work_of(const TileRows& of) {
   return of.receiving == of.sending ? TileWork::one_tile : TileWork::two_tiles;
 }
 
-/// The same from column `first` on, of which there are `count`.
-TileRows columns_of(const TileRows& all, Index first, Index count) {
+/// The same of column `first` and those after it, `count` in all, and of one tile.
+TileRows piece_of(const TileRows& all, Index tile, Index first, Index count) {
   TileRows of = all;
+  of.tiles = 1;
   of.columns = count;
-  if (all.receiving != nullptr) of.x += first * all.stride;
+  if (all.receiving != nullptr) of.receiving += tile * part_entries;
+  if (all.sending != nullptr) of.sending += tile * part_entries;
+  if (all.receiving != nullptr) of.x += tile * all.step + first * all.stride;
   if (all.receiving != nullptr) of.lanes += first * tile_size * tile_lanes;
   if (all.sending != nullptr) of.z += first * all.stride;
-  if (all.sending != nullptr) of.y += first * all.stride;
+  if (all.sending != nullptr) of.y += tile * all.step + first * all.stride;
   return of;
 }
 
@@ -57,10 +60,11 @@ void add_products(const TileRows& of) {
   const auto work = static_cast<std::size_t>(work_of(of));
   const auto kernel = [&](Index columns) { return kernels[static_cast<std::size_t>(columns - 1)][work]; };
   if (of.columns <= most_columns) return kernel(of.columns)(of);
-  for (Index first = 0; first < of.columns; first += most_columns) {
-    const Index count = std::min(of.columns - first, most_columns);
-    kernel(count)(columns_of(of, first, count));
-  }
+  for (Index tile = 0; tile < of.tiles; ++tile)  // which is at hand when the first few columns are done
+    for (Index first = 0; first < of.columns; first += most_columns) {
+      const Index count = std::min(of.columns - first, most_columns);
+      kernel(count)(piece_of(of, tile, first, count));
+    }
 }
 
 void add_lanes(Index rows, Index columns, double* lanes, double* y, Index stride) {

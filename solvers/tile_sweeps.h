@@ -27,7 +27,7 @@ class TileSweeps final : public Sweeps {
   void back() override;
 
  private:
-  /// A few rows of a row of tiles.
+  /// A few rows of a row of tiles: one part, or several.
   struct Strip {
     Index I, row;  ///< tiles; first row in them
   };
@@ -35,6 +35,7 @@ class TileSweeps final : public Sweeps {
   Strip strip(Index s) const { return {s / (tile_size / height_), s % (tile_size / height_) * height_}; }
   Index tile_rows() const { return x_.cols() / tile_size; }
   void send_all();
+  void fetch_diagonal(Index I);
   void sweep_strip(const Strip& strip, bool ascending, ConstColumns from_after);
   void send_and_receive(const std::optional<Strip>& sender, const std::optional<Strip>& receiver);
   void pass_tiles(const std::optional<Strip>& sender, const std::optional<Strip>& receiver, Index begin, Index end,
@@ -42,13 +43,15 @@ class TileSweeps final : public Sweeps {
 
   const TileAccess& tiles_;
   const Run& run_;
-  Index height_ = tile_size;  ///< rows of a strip
+  Index height_ = tile_size;  ///< rows of a strip, a multiple of part_rows
   CacheLines room_[2];
   Eigen::Map<ColumnMatrix> up_,
-      sent_;               ///< columns x stride: received from unknowns after, in other rows of tiles; so far
-  bool knows_up_ = false;  ///< of the x that there is
-  CacheLines lanes_;       ///< of what a strip receives, by task: columns x tile_size x tile_lanes each
-  ColumnMatrix received_;  ///< columns x tile_size
+      sent_;                ///< columns x stride: received from unknowns after, in other rows of tiles; so far
+  bool knows_up_ = false;   ///< of the x that there is
+  CacheLines diagonal_;     ///< the tile of the strips that are swept, row after row
+  Index diagonal_of_ = -1;  ///< row of tiles
+  CacheLines lanes_;        ///< of what a strip receives, by task: columns x tile_size x tile_lanes each
+  ColumnMatrix received_;   ///< columns x tile_size
 };
 
 }  // namespace interflect::solvers

@@ -19,7 +19,7 @@
 namespace interflect::fem {
 namespace {
 
-using solvers::tile_entries, solvers::tile_lanes, solvers::tile_size;
+using solvers::tile_entries, solvers::tile_lanes, solvers::tile_size, solvers::part_rows, solvers::part_entries;
 constexpr Index strip_count = 16;  // more would cost vectors of partial sums, fewer would leave processors idle
 
 /// Pages of zeros, large ones where the system has them.
@@ -37,7 +37,7 @@ double* zeros(Index count) {
   return static_cast<double*>(p);
 }
 
-/// Columns of a tile, `count` from `K` on, become rows of `to`, `width` long: in blocks of one cache line to write, and
+/// Columns of a part, `count` from `K` on, become rows of `to`, `width` long: in blocks of one cache line to write, and
 /// few to read from.
 void copy_transposed(const double* K, Index count, Index width, double* to, Index stride) {
   constexpr Index line = 8;
@@ -132,9 +132,8 @@ void DenseSymmetric::add(Index a, Index b, const ExchangeEntry& entry) {
   assert(a >= 0 && a < size() && b >= 0 && b < size() && std::isfinite(K_ab) && std::isfinite(error) && bound >= 0);
   if (a < b) std::swap(a, b);
   const Index I = a / tile_size, J = b / tile_size, i = a % tile_size, j = b % tile_size;
-  double* K = tile_data(I, J);
-  K[i * tile_size + j] = K_ab;
-  if (I == J) K[j * tile_size + i] = K_ab;
+  row_data(I, i, J)[j] = K_ab;
+  if (I == J) row_data(I, j, J)[i] = K_ab;
   if (a == b) self_[static_cast<std::size_t>(a)] = K_ab;
   if (error == 0 && errors_[static_cast<std::size_t>(tile_at(I, J))].load(std::memory_order_acquire) == nullptr) return;
   float* errors = error_tile(tile_at(I, J));
@@ -144,7 +143,7 @@ void DenseSymmetric::add(Index a, Index b, const ExchangeEntry& entry) {
 
 double DenseSymmetric::entry(Index a, Index b) const {
   if (a < b) std::swap(a, b);
-  return tile_data(a / tile_size, b / tile_size)[a % tile_size * tile_size + b % tile_size];
+  return row_data(a / tile_size, a % tile_size, b / tile_size)[b % tile_size];
 }
 
 double DenseSymmetric::entry_standard_error(Index a, Index b) const {
@@ -154,15 +153,15 @@ double DenseSymmetric::entry_standard_error(Index a, Index b) const {
   return errors == nullptr ? 0.0 : static_cast<double>(errors[a % tile_size * tile_size + b % tile_size]);
 }
 
-template <class TileOf>
-void DenseSymmetric::multiply(const TileOf& tile_of, solvers::ConstColumns b, solvers::Columns out, Run& run) const {
+template <class RowsOf>
+void DenseSymmetric::multiply(const RowsOf& rows_of, solvers::ConstColumns b, solvers::Columns out, Run& run) const {
   const Index n = size(), columns = b.cols();
   assert(b.rows() == n && out.rows() == n && out.cols() == columns);
   std::unique_ptr<Room> room = take_room(columns);
   for (Index a = 0; a < n; ++a)
     for (Index c = 0; c < columns; ++c) room->x(a, c) = b(a, c);
   run.threads.for_blocks(strips(), 1, [&](Index s, Index) {
-    multiply_strip(strips_[static_cast<std::size_t>(s)], tile_of, room->x, room->sums[static_cast<std::size_t>(s)]);
+    multiply_strip(strips_[static_cast<std::size_t>(s)], rows_of, room->x, room->sums[static_cast<std::size_t>(s)]);
   });
   run.threads.for_blocks(tile_rows_, 16, [&](Index begin, Index stop) {
     for (Index I = begin; I < stop; ++I) add_sums(I, room->sums, out);
@@ -170,55 +169,64 @@ void DenseSymmetric::multiply(const TileOf& tile_of, solvers::ConstColumns b, so
   give_back(std::move(room));
 }
 
-template <class TileOf>
-void DenseSymmetric::multiply_strip(const Strip& strip, const TileOf& tile_of, const TiledColumns& x,
+template <class RowsOf>
+void DenseSymmetric::multiply_strip(const Strip& strip, const RowsOf& rows_of, const TiledColumns& x,
                                     TiledColumns& sums) const {
   const Index columns = x.columns();
   sums.set_zero();
-  solvers::CacheLines lanes(columns * tile_size * tile_lanes), scratch(tile_entries);
-  for (Index I = strip.first; I < strip.end; ++I) {
-    for (Index J = 0; J <= I; ++J) {
-      const double* K = tile_of(tile_at(I, J), scratch.data());
-      if (K == nullptr) continue;
-      solvers::add_products({.rows = tile_size,
-                             .columns = columns,
-                             .stride = tile_size,
-                             .receiving = K,
-                             .x = x.tile(J),
-                             .lanes = lanes.data(),
-                             .sending = I == J ? nullptr : K,  // those on the diagonal are their own mirror
-                             .z = x.tile(I),
-                             .y = sums.tile(J)});
+  solvers::CacheLines lanes(columns * tile_size * tile_lanes);
+  for (Index I = strip.first; I < strip.end; ++I)
+    for (Index row = 0; row < tile_size; row += part_rows) {
+      solvers::TileRows of{
+          .rows = part_rows, .tiles = 0, .columns = columns, .stride = tile_size, .step = columns * tile_size};
+      of.lanes = lanes.data();
+      of.z = x.tile(I) + row;
+      const auto add = [&](const double* K, Index J, Index tiles) {
+        of.receiving = of.sending = K;
+        of.x = x.tile(J);
+        of.y = sums.tile(J);
+        of.tiles = std::min(tiles, I - J);
+        if (of.tiles > 0) solvers::add_products(of);
+        if (J + tiles <= I) return;
+        of.receiving += of.tiles * part_entries;  // that on the diagonal is its own mirror
+        of.sending = nullptr;
+        of.x = x.tile(I);
+        of.tiles = 1;
+        solvers::add_products(of);
+      };
+      rows_of(I, row, add);
+      solvers::add_lanes(part_rows, columns, lanes.data(), sums.tile(I) + row, tile_size);
     }
-    solvers::add_lanes(tile_size, columns, lanes.data(), sums.tile(I), tile_size);
-  }
 }
 
 /// The rows of out that tile row I has, in the order of the strips.
 void DenseSymmetric::add_sums(Index I, std::span<const TiledColumns> sums, solvers::Columns out) const {
   const Index first = I * tile_size, rows = std::min(tile_size, size() - first), columns = out.cols();
-  out.middleRows(first, rows).setZero();
-  for (std::size_t s = 0; s < strips_.size(); ++s) {
-    if (strips_[s].end <= I) continue;
-    const double* part = sums[s].tile(I);
-    for (Index i = 0; i < rows; ++i)
-      for (Index c = 0; c < columns; ++c) out(first + i, c) += part[c * tile_size + i];
+  for (Index c = 0; c < columns; ++c) {
+    Eigen::Array<double, tile_size, 1> sum = Eigen::Array<double, tile_size, 1>::Zero();
+    for (std::size_t s = 0; s < strips_.size(); ++s)
+      if (strips_[s].end > I)
+        sum += Eigen::Map<const Eigen::Array<double, tile_size, 1>>(sums[s].tile(I) + c * tile_size);
+    out.col(c).segment(first, rows) = sum.head(rows);
   }
 }
 
 void DenseSymmetric::apply(solvers::ConstColumns b, solvers::Columns out, Run& run) const {
-  multiply([&](Index at, double*) { return entries_.get() + at * tile_entries; }, b, out, run);
+  multiply([&](Index I, Index row, const auto& add) { add(row_data(I, row, 0), 0, I + 1); }, b, out, run);
 }
 
 void DenseSymmetric::apply_variances(solvers::ConstColumns b, solvers::Columns out, Run& run) const {
-  const auto squared_errors = [&](Index at, double* scratch) -> const double* {
-    const float* errors = errors_[static_cast<std::size_t>(at)].load(std::memory_order_acquire);
-    if (errors == nullptr) return nullptr;
-    for (Index i = 0; i < tile_entries; ++i) {
-      const double error = static_cast<double>(errors[i]);
-      scratch[i] = error * error;
+  const auto squared_errors = [&](Index I, Index row, const auto& add) {
+    solvers::CacheLines squares(part_entries);
+    for (Index J = 0; J <= I; ++J) {
+      const float* errors = errors_[static_cast<std::size_t>(tile_at(I, J))].load(std::memory_order_acquire);
+      if (errors == nullptr) continue;
+      for (Index i = 0; i < part_entries; ++i) {
+        const double error = static_cast<double>(errors[row * tile_size + i]);
+        squares.data()[i] = error * error;
+      }
+      add(squares.data(), J, 1);
     }
-    return scratch;
   };
   multiply(squared_errors, b, out, run);
 }
@@ -231,13 +239,13 @@ void DenseSymmetric::rows(Index first, Index count, solvers::Columns out) const 
     double* to = out.row(I * tile_size + begin_i - first).data();
     for (Index J = 0; J <= I; ++J, to += tile_size) {
       const std::size_t width = static_cast<std::size_t>(std::min(tile_size, n - J * tile_size)) * sizeof(double);
-      const double* K = tile_data(I, J);
       for (Index i = begin_i; i < end_i; ++i)
-        std::memcpy(to + (i - begin_i) * out.outerStride(), K + i * tile_size, width);
+        std::memcpy(to + (i - begin_i) * out.outerStride(), row_data(I, i, J), width);
     }
     for (Index J = I + 1; J < tile_rows_; ++J, to += tile_size)
-      copy_transposed(tile_data(J, I) + begin_i, end_i - begin_i, std::min(tile_size, n - J * tile_size), to,
-                      out.outerStride());
+      for (Index row = 0; row < std::min(tile_size, n - J * tile_size); row += part_rows)
+        copy_transposed(row_data(J, row, I) + begin_i, end_i - begin_i, std::min(part_rows, n - J * tile_size - row),
+                        to + row, out.outerStride());
   }
   evaluated_.fetch_add(count, std::memory_order_relaxed);
 }
@@ -247,17 +255,18 @@ bool DenseSymmetric::has_errors() const {
 }
 
 std::span<const StoredPair> DenseSymmetric::pairs_of(Index I, Index J, std::span<StoredPair> room) const {
-  const double* K = tile_data(I, J);
   const float* errors = errors_[static_cast<std::size_t>(tile_at(I, J))].load(std::memory_order_acquire);
   const Index rows = std::min(tile_size, size() - I * tile_size), columns = std::min(tile_size, size() - J * tile_size);
   std::size_t count = 0;
-  for (Index i = 0; i < rows; ++i)
+  for (Index i = 0; i < rows; ++i) {
+    const double* K = row_data(I, i, J);
     for (Index j = 0; j < (I == J ? i + 1 : columns); ++j) {
       const double error = errors == nullptr ? 0.0 : static_cast<double>(errors[i * tile_size + j]);
-      room[count] = {static_cast<std::uint32_t>(J * tile_size + j), static_cast<std::uint32_t>(I * tile_size + i),
-                     K[i * tile_size + j], error};
-      count += K[i * tile_size + j] != 0 || error != 0;
+      room[count] = {static_cast<std::uint32_t>(J * tile_size + j), static_cast<std::uint32_t>(I * tile_size + i), K[j],
+                     error};
+      count += K[j] != 0 || error != 0;
     }
+  }
   return room.first(count);
 }
 
@@ -273,11 +282,10 @@ void DenseSymmetric::change(const NewEntry& entry, Run& run) {
   run.threads.for_blocks(strips(), 1, [&](Index strip, Index) {
     visit(strip, [&](std::span<const StoredPair> pairs) {
       const Index I = Index{pairs.front().b} / tile_size, J = Index{pairs.front().a} / tile_size;
-      double* K = tile_data(I, J);
       for (const StoredPair& pair : pairs) {
         const Index i = Index{pair.b} - I * tile_size, j = Index{pair.a} - J * tile_size;
-        const double K_ab = K[i * tile_size + j] = entry(pair);
-        if (I == J) K[j * tile_size + i] = K_ab;
+        const double K_ab = row_data(I, i, J)[j] = entry(pair);
+        if (I == J) row_data(I, j, J)[i] = K_ab;
       }
     });
   });

@@ -13,8 +13,8 @@ namespace interflect::fem {
 
 /// Every entry stored, in doubles, each pair once: 4 N² bytes.
 ///
-/// The lower triangle lies in square tiles, row of tiles after row of tiles, so that one pass over memory serves K_IJ
-/// and its mirror K_JI = K_IJ^T.  Symmetric by construction: there is only one number a pair.
+/// The lower triangle lies in square tiles, row of tiles after row of tiles, each cut into parts of some rows
+/// (solvers/tile_access.h), so that one pass over memory serves K_IJ and its mirror K_JI = K_IJ^T.  Symmetric by construction: there is only one number a pair.
 ///
 /// Standard errors of entries are kept in single precision, in tiles made when an entry in them was sampled: up to 2 N²
 /// bytes more.  Bounds on quadrature errors are not kept: they are at most the tolerance that the method was given.
@@ -40,7 +40,7 @@ class DenseSymmetric final : public SymmetricOperator, public solvers::TileAcces
   Index evaluated() const override { return evaluated_.load(std::memory_order_relaxed); }
 
   const solvers::TileAccess* tiles() const override { return this; }
-  const double* tile(Index I, Index J) const override { return tile_data(I, J); }
+  const double* part(Index I, Index row, Index J) const override { return row_data(I, row, J); }
 
   double entry(Index a, Index b) const override;
   double entry_standard_error(Index a, Index b) const override;
@@ -67,16 +67,20 @@ class DenseSymmetric final : public SymmetricOperator, public solvers::TileAcces
 
   /// Position of tile (I, J), I >= J, among all of them.
   static Index tile_at(Index I, Index J) { return I * (I + 1) / 2 + J; }
-  const double* tile_data(Index I, Index J) const { return entries_.get() + tile_at(I, J) * solvers::tile_entries; }
-  double* tile_data(Index I, Index J) { return entries_.get() + tile_at(I, J) * solvers::tile_entries; }
+  /// A row of tile (I, J): parts of (I, 0) .. (I, I), and then the next ones.
+  double* row_data(Index I, Index row, Index J) const {
+    return entries_.get() + tile_at(I, 0) * solvers::tile_entries +
+           (row / solvers::part_rows * (I + 1) + J) * solvers::part_entries +
+           row % solvers::part_rows * solvers::tile_size;
+  }
   float* error_tile(Index at);
   /// The pairs of a tile that are not 0 without an error, into room for all of them.
   std::span<const StoredPair> pairs_of(Index I, Index J, std::span<StoredPair> room) const;
-  /// out = (a symmetric matrix whose tiles `tile_of(at, scratch)` gives) b.
-  template <class TileOf>
-  void multiply(const TileOf& tile_of, solvers::ConstColumns b, solvers::Columns out, Run& run) const;
-  template <class TileOf>
-  void multiply_strip(const Strip& strip, const TileOf& tile_of, const TiledColumns& x, TiledColumns& sums) const;
+  /// out = (a symmetric matrix) b, whose parts `rows_of(I, row, add)` gives to add(entries, J, tiles).
+  template <class RowsOf>
+  void multiply(const RowsOf& rows_of, solvers::ConstColumns b, solvers::Columns out, Run& run) const;
+  template <class RowsOf>
+  void multiply_strip(const Strip& strip, const RowsOf& rows_of, const TiledColumns& x, TiledColumns& sums) const;
   void add_sums(Index I, std::span<const TiledColumns> sums, solvers::Columns out) const;
   std::unique_ptr<Room> take_room(Index columns) const;
   void give_back(std::unique_ptr<Room> room) const;

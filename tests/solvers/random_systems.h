@@ -44,9 +44,9 @@ class TiledOperator final : public TransportOperator, public TileAccess {
     const Index n = tile_rows_ * tile_size;
     Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(n, n);
     padded.topLeftCorner(full.matrix().rows(), full.matrix().rows()) = full.matrix();
-    for (Index I = 0; I < tile_rows_; ++I)
-      for (Index J = 0; J <= I; ++J) tiles_.push_back(padded.block(I * tile_size, J * tile_size, tile_size, tile_size));
-    tiles_.push_back(ColumnMatrix::Zero(tile_size, tile_size));  // what lies behind the last is fetched too
+    for (Index first = 0; first < n; first += part_rows)
+      for (Index J = 0; J <= first / tile_size; ++J) append(padded.block(first, J * tile_size, part_rows, tile_size));
+    append(ColumnMatrix::Zero(part_rows, tile_size));  // what lies behind the last is fetched too
   }
   const Layout& layout() const override { return full_.layout(); }
   bool symmetric() const override { return true; }
@@ -55,14 +55,17 @@ class TiledOperator final : public TransportOperator, public TileAccess {
   std::span<const double> self() const override { return full_.self(); }
   const RowAccess* rows() const override { return full_.rows(); }
   const TileAccess* tiles() const override { return this; }
-  const double* tile(Index I, Index J) const override {
-    return tiles_[static_cast<std::size_t>(I * (I + 1) / 2 + J)].data();
+  const double* part(Index I, Index row, Index J) const override {
+    const Index before = I * (I + 1) / 2 * (tile_size / part_rows) + row / part_rows * (I + 1) + J;
+    return entries_.data() + before * part_entries;
   }
 
  private:
+  void append(const ColumnMatrix& part) { entries_.insert(entries_.end(), part.data(), part.data() + part.size()); }
+
   const FullOperator& full_;
   Index tile_rows_;
-  std::vector<ColumnMatrix> tiles_;
+  std::vector<double> entries_;
 };
 
 /// A random symmetric K with areas over four powers of ten, row sums sum_b K_ab <= A_a, zeros, and a diagonal unless

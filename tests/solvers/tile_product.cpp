@@ -10,84 +10,98 @@ using namespace interflect::solvers;
 
 namespace {
 
-constexpr Index all_lanes = tile_size * tile_lanes;
+constexpr Index all_lanes = tile_size * tile_lanes, tiles = 3, width = tiles * tile_size;
 
-/// Two tiles, vectors, and what add_products makes of them by `rows` rows at a time.
+/// Parts of three tiles of two matrices, vectors, and what add_products makes of them by so many rows and tiles at a
+/// time.
 struct Products {
   Products(Index columns, std::uint64_t seed)
-      : K(random_columns(2 * tile_size, tile_size, -1, 1, seed)),  // each with a tile behind it
-        M(random_columns(2 * tile_size, tile_size, -1, 1, seed + 1)),
-        x(random_columns(columns, tile_size, -1, 1, seed + 2)),
-        z(random_columns(columns, tile_size, -1, 1, seed + 3)) {}
+      : K(random_columns((tiles + 1) * part_rows, tile_size, -1, 1, seed)),  // with a part behind the last
+        M(random_columns((tiles + 1) * part_rows, tile_size, -1, 1, seed + 1)),
+        x(random_columns(columns, width, -1, 1, seed + 2)),
+        z(random_columns(columns, width, -1, 1, seed + 3)) {}
 
-  void run(Index rows, const ColumnMatrix* receiving, const ColumnMatrix* sending) {
+  void run(const ColumnMatrix* receiving, const ColumnMatrix* sending, Index rows = part_rows, Index at_once = tiles) {
     const Index columns = x.rows();
-    received = ColumnMatrix::Ones(columns, tile_size);
-    sent = ColumnMatrix::Ones(columns, tile_size);
+    received = ColumnMatrix::Ones(columns, part_rows);
+    sent = ColumnMatrix::Ones(columns, width);
     CacheLines lanes(columns * all_lanes);
-    for (Index r = 0; r < tile_size; r += rows)
-      add_products({.rows = rows,
-                    .columns = columns,
-                    .stride = tile_size,
-                    .receiving = receiving != nullptr ? receiving->row(r).data() : nullptr,
-                    .x = x.data(),
-                    .lanes = lanes.data() + r * tile_lanes,
-                    .sending = sending != nullptr ? sending->row(r).data() : nullptr,
-                    .z = z.data() + r,
-                    .y = sent.data()});
-    add_lanes(tile_size, columns, lanes.data(), received.data(), tile_size);
+    for (Index r = 0; r < part_rows; r += rows)
+      for (Index t = 0; t < tiles; t += at_once)
+        add_products({.rows = rows,
+                      .tiles = std::min(at_once, tiles - t),
+                      .columns = columns,
+                      .stride = width,
+                      .step = tile_size,
+                      .receiving = receiving != nullptr ? receiving->row(t * part_rows + r).data() : nullptr,
+                      .x = x.data() + t * tile_size,
+                      .lanes = lanes.data() + r * tile_lanes,
+                      .sending = sending != nullptr ? sending->row(t * part_rows + r).data() : nullptr,
+                      .z = z.data() + r,
+                      .y = sent.data() + t * tile_size});
+    add_lanes(part_rows, columns, lanes.data(), received.data(), part_rows);
     for (Index i = 0; i < columns * all_lanes; ++i) EXPECT_EQ(lanes.data()[i], 0);
   }
 
   ColumnMatrix K, M, x, z, received, sent;
 };
 
-ColumnMatrix first_tile(const ColumnMatrix& K) { return K.topRows(tile_size); }
+/// The rows that parts are of.
+ColumnMatrix rows_of(const ColumnMatrix& parts) {
+  ColumnMatrix rows(part_rows, width);
+  for (Index t = 0; t < tiles; ++t)
+    rows.middleCols(t * tile_size, tile_size) = parts.middleRows(t * part_rows, part_rows);
+  return rows;
+}
 
 }  // namespace
 
-// Sums of 64 products of numbers in [-1, 1]: rounding is below 64 2^-53 times the sum of magnitudes, at most 65.
+// Sums of at most 192 products of numbers in [-1, 1]: rounding is below 192 2^-53 times the sum of magnitudes, at most
+// 193.
 TEST(TileProduct, equals_the_dense_product_for_any_number_of_columns_one_tile_or_two) {
-  constexpr double rounding = 64 * 65 * 0x1p-53;
+  constexpr double rounding = 192 * 193 * 0x1p-53;
   for (Index columns = 1; columns <= 9; ++columns) {
     Products of(columns, 10 * static_cast<std::uint64_t>(columns));
-    const ColumnMatrix one = ColumnMatrix::Ones(columns, tile_size);
-    const ColumnMatrix by_K = one + of.x * first_tile(of.K).transpose(), from_K = one + of.z * first_tile(of.K),
-                       from_M = one + of.z * first_tile(of.M);
-    of.run(tile_size, &of.K, &of.K);
+    const ColumnMatrix ones = ColumnMatrix::Ones(columns, part_rows), all_ones = ColumnMatrix::Ones(columns, width);
+    const auto sent_by = [&](const ColumnMatrix& parts) -> ColumnMatrix {
+      return all_ones + of.z.leftCols(part_rows) * rows_of(parts);
+    };
+    const ColumnMatrix by_K = ones + of.x * rows_of(of.K).transpose(), from_K = sent_by(of.K), from_M = sent_by(of.M);
+    of.run(&of.K, &of.K);
     EXPECT_LE((of.received - by_K).cwiseAbs().maxCoeff(), rounding) << columns;
     EXPECT_LE((of.sent - from_K).cwiseAbs().maxCoeff(), rounding) << columns;
-    of.run(tile_size, &of.K, &of.M);
+    of.run(&of.K, &of.M);
     EXPECT_LE((of.received - by_K).cwiseAbs().maxCoeff(), rounding) << columns;
     EXPECT_LE((of.sent - from_M).cwiseAbs().maxCoeff(), rounding) << columns;
-    of.run(tile_size, &of.K, nullptr);
+    of.run(&of.K, nullptr);
     EXPECT_LE((of.received - by_K).cwiseAbs().maxCoeff(), rounding) << columns;
-    EXPECT_EQ(of.sent, one);
-    of.run(tile_size, nullptr, &of.M);
+    EXPECT_EQ(of.sent, all_ones);
+    of.run(nullptr, &of.M);
     EXPECT_LE((of.sent - from_M).cwiseAbs().maxCoeff(), rounding) << columns;
-    EXPECT_EQ(of.received, one);
+    EXPECT_EQ(of.received, ones);
   }
 }
 
-TEST(TileProduct, has_the_same_bits_for_any_division_into_rows_and_columns) {
+TEST(TileProduct, has_the_same_bits_for_any_division_into_rows_tiles_and_columns) {
   for (const Index columns : {1, 3, 6}) {
     Products of(columns, 500);
-    of.run(tile_size, &of.K, &of.M);
+    of.run(&of.K, &of.M);
     const ColumnMatrix received = of.received, sent = of.sent;
-    for (const Index rows : {4, 8, 32}) {
-      of.run(rows, &of.K, &of.M);
-      EXPECT_EQ(of.received, received) << rows;
-      EXPECT_EQ(of.sent, sent) << rows;
-    }
+    for (const Index rows : {4, 8, 16})
+      for (const Index at_once : {1, 2}) {
+        of.run(&of.K, &of.M, rows, at_once);
+        EXPECT_EQ(of.received, received) << rows << ' ' << at_once;
+        EXPECT_EQ(of.sent, sent) << rows << ' ' << at_once;
+      }
     // Every column alone is what it is among others: kernels of one column are for short vectors, of more for long
     // ones.
     for (Index c = 0; c < columns; ++c) {
       Products alone = of;
       alone.x = of.x.row(c);
       alone.z = of.z.row(c);
-      for (const ColumnMatrix* sending : {&alone.K, &alone.M}) {
-        alone.run(tile_size, &alone.K, sending);
-        of.run(tile_size, &of.K, sending == &alone.K ? &of.K : &of.M);
+      for (const bool two : {false, true}) {
+        alone.run(&alone.K, two ? &alone.M : &alone.K);
+        of.run(&of.K, two ? &of.M : &of.K);
         EXPECT_EQ(alone.received, of.received.row(c)) << c;
         EXPECT_EQ(alone.sent, of.sent.row(c)) << c;
       }
