@@ -58,7 +58,9 @@ void add_validate(CLI::App& app, Command& chosen) {
   add_radiosity(*command, options->solve, add_folder(*command, options->solve.out));
   add_no_pictures(*command, options->solve.pictures);
   add_accuracy(*command, options->accuracy, "each traced value");
-  command->add_option("--integrator", options->integrator, "How values are traced")
+  command
+      ->add_option("--integrator", options->integrator,
+                   "How values are traced: one that is unbiased and finds all that radiosity does")
       ->check(CLI::IsMember(montecarlo::integrator_names()))
       ->capture_default_str();
   command->add_option("--elements", options->elements, "Elements to judge, a stratified choice")
@@ -94,12 +96,12 @@ void add_render(CLI::App& app, Command& chosen) {
 void add_trace(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<TraceOptions>();
   CLI::App* command = add_command<TraceOptions>(
-      app, "trace", "A picture by Monte Carlo",
+      app, "trace", "A picture by Monte Carlo, and what reaches surfaces and sensors",
       core::format("interflect trace %s --camera front --spp 256 -o cornell.exr", example_scene), trace, options,
       chosen);
   add_scene(*command, options->scene);
   add_camera(*command, options->camera);
-  command->add_option("--spp", options->samples, "Samples per pixel")
+  command->add_option("--spp", options->samples, "Samples per pixel at most; of whitted a multiple of 16")
       ->check(CLI::Range(1, 1 << 24))
       ->capture_default_str();
   command
@@ -111,9 +113,11 @@ void add_trace(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember(montecarlo::filter_names()))
       ->capture_default_str();
   command
-      ->add_option("--sequence", options->sequence,
-                   core::format("Numbers that paths begin with; but for independent ones --spp is a multiple of %d",
-                                montecarlo::sequence_batches))
+      ->add_option(
+          "--sequence", options->sequence,
+          core::format("Numbers that paths begin with, of --integrator path; but for independent ones --spp is a "
+                       "multiple of %d",
+                       montecarlo::sequence_batches))
       ->check(CLI::IsMember(core::sequence_names()))
       ->capture_default_str();
   command->add_flag(
@@ -126,24 +130,32 @@ void add_trace(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember(montecarlo::integrator_names()))
       ->capture_default_str();
   command
-      ->add_option("--target", options->target,
-                   "End the picture where relative standard errors of pixels are below, such as 5%; --spp at most")
+      ->add_option(
+          "--target", options->target,
+          "End the picture where relative standard errors of its pixels, in the root mean square, are below, such as "
+          "5%")
       ->transform(fraction());
   add_accuracy(*command, options->accuracy, "those estimates");
   add_paths(*command, options->paths);
+  command
+      ->add_option("--group", options->group,
+                   "Lights that shine alone: a light group of surfaces, a light of that name, or sky; default: all")
+      ->check(named("a light group"));
   add_intersector(*command, options->intersector, "Ray caster");
 }
 
 void add_compare(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = add_command<CompareOptions>(
-      app, "compare", "Several integrators on one scene: do they agree on the paths that all find, and which is best",
+      app, "compare",
+      "Several integrators on one scene: do they agree on the paths that each two find, and which is best",
       core::format("interflect compare %s --integrators path,light,bidirectional --target 1%% -o out/compared",
                    example_scene),
       compare, options, chosen);
   add_scene(*command, options->scene);
   add_folder(*command, options->out);
-  command->add_option("--integrators", options->integrators, "Which ones; default: all")
+  command
+      ->add_option("--integrators", options->integrators, "Which ones; default: all but two-pass, which solves first")
       ->delimiter(',')
       ->check(CLI::IsMember(montecarlo::integrator_names()));
   add_target(*command, options->target);
@@ -151,6 +163,12 @@ void add_compare(CLI::App& app, Command& chosen) {
   add_camera(*command, options->camera);
   command->add_option("--spp", options->samples, "Samples per pixel of the pictures")
       ->check(CLI::Range(2, 1 << 20))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--replications", options->replications,
+          "Small runs of other seeds, with as many samples again in all, by which the mean z is judged; 0: none")
+      ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   add_no_pictures(*command, options->pictures);
   add_intersector(*command, options->intersector, "Ray caster");
@@ -283,14 +301,16 @@ void add_exchange(CLI::App& app, Command& chosen) {
 
 void add_info(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<InfoOptions>();
-  add_scene(*add_command<InfoOptions>(app, "info", "What was read: surfaces, materials, flux, box in metres, repairs",
-                                      core::format("interflect info %s", example_scene), info, options, chosen),
+  add_scene(*add_command<InfoOptions>(
+                app, "info", "What was read: surfaces, materials, lights, flux, box in metres, cameras, repairs",
+                core::format("interflect info %s", example_scene), info, options, chosen),
             options->scene);
 }
 
 void add_check(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<CheckOptions>();
-  add_scene(*add_command<CheckOptions>(app, "check", "Looks for gaps, flipped normals, duplicate and coplanar faces",
+  add_scene(*add_command<CheckOptions>(app, "check",
+                                       "Looks for gaps, flipped normals, duplicate and coplanar faces, and openings",
                                        core::format("interflect check %s", example_scene), check, options, chosen),
             options->scene);
 }

@@ -5,6 +5,7 @@
 
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
+#include "apps/first_pass.h"
 #include "apps/pictures.h"
 #include "apps/read_scene.h"
 #include "apps/scene_questions.h"
@@ -31,6 +32,7 @@ using montecarlo::IntegratorComparison;
 using montecarlo::IntegratorPair;
 using montecarlo::IntegratorTrial;
 using validation::Agreement;
+using validation::MeanAgreement;
 
 constexpr double alpha = 0.01;            ///< that chance alone makes any comparison of a run stand out
 constexpr int most_coarse_pixels = 12;    ///< a row or column, that are held against each other
@@ -46,6 +48,7 @@ struct Compared {
   Kind kind;
   IntegratorComparison comparison;
   std::vector<Agreement> agreements;  ///< by pair
+  std::vector<MeanAgreement> means;   ///< by pair
 };
 
 /// The same view by so few pixels that each may be known well.
@@ -95,7 +98,8 @@ std::string missed_by(const Compared& of, const IntegratorPair& pair) {
 
 bool all_agree(const std::vector<Compared>& all) {
   return std::all_of(all.begin(), all.end(), [](const Compared& of) {
-    return std::all_of(of.agreements.begin(), of.agreements.end(), [](const Agreement& a) { return a.agrees(); });
+    const auto agrees = [](const auto& a) { return a.agrees(); };
+    return std::ranges::all_of(of.agreements, agrees) && std::ranges::all_of(of.means, agrees);
   });
 }
 
@@ -122,16 +126,41 @@ std::string efficiency_table(const scene::Scene& scene, const std::vector<Compar
 }
 
 std::string agreement_table(const std::vector<Compared>& all, double z_max) {
-  Table table({"measured", "held against each other", "comparisons", "mean z", "largest z", "allowed", "beyond",
-               "worst", "but paths"});
+  Table table({"measured", "held against each other", "comparisons", "largest z", "allowed", "beyond", "worst",
+               "mean z", "allowed", "but paths"});
   for (const Compared& of : all)
     for (std::size_t p = 0; p < of.agreements.size(); ++p) {
       const Agreement& a = of.agreements[p];
+      const MeanAgreement& mean = of.means[p];
       table.add({of.kind.name, pair_name(of, of.comparison.pairs[p]), core::format_count(a.comparisons),
-                 core::format("%+.2f", a.mean_z), core::format("%.2f", a.largest_z), core::format("%.2f", z_max),
-                 core::format_count(a.beyond), of.kind.names[a.worst], missed_by(of, of.comparison.pairs[p])});
+                 core::format("%.2f", a.largest_z), core::format("%.2f", z_max), core::format_count(a.beyond),
+                 of.kind.names[a.worst], core::format("%+.2f", mean.judged ? mean.mean : a.mean_z),
+                 mean.judged ? core::format("%.2f%s", mean.allowed, mean.agrees() ? "" : ", BEYOND") : "not judged",
+                 missed_by(of, of.comparison.pairs[p])});
     }
   return table.text();
+}
+
+/// Of each run: what samples were no numbers, and where one is much.
+std::string sample_texts(const std::vector<Compared>& all) {
+  std::string text;
+  for (const Compared& of : all) {
+    const auto add = [&](const std::string& who, const montecarlo::SampleReport& report) {
+      if (!report.heavy.empty()) text += of.kind.name + " by " + who + ": " + report.heavy_text(of.kind.names) + "\n";
+      if (report.not_finite > 0)
+        text += core::format("%s by %s: %llu samples were not finite and count as zero: a bug\n", of.kind.name.c_str(),
+                             who.c_str(), static_cast<unsigned long long>(report.not_finite));
+    };
+    for (const IntegratorTrial& trial : of.comparison.trials) add(trial.integrator, trial.report);
+    for (const IntegratorPair& pair : of.comparison.pairs) add(pair_name(of, pair), pair.report);
+  }
+  return text;
+}
+
+void add_samples(const montecarlo::SampleReport& report, const std::vector<std::string>& names,
+                 results::Record& record) {
+  record.add("samples_not_finite", report.not_finite).add("by_one_sample", report.heavy.size());
+  if (!report.heavy.empty()) record.add("worst_by_one_sample", report.heavy_text(names));
 }
 
 std::string refusals(const std::vector<Compared>& all) {
@@ -200,19 +229,24 @@ results::Record record_of(const scene::Scene& scene, const std::vector<Compared>
       results::Record trial;
       trial.add("integrator", t.integrator).add("paths", t.paths.expression()).add("missed", t.missed);
       if (!t.refused.empty()) trial.add("refused", t.refused);
-      if (t.refused.empty()) trial.add("processor_seconds", t.processor_seconds).add("efficiency", t.efficiency(scene));
+      if (t.refused.empty()) {
+        trial.add("processor_seconds", t.processor_seconds).add("efficiency", t.efficiency(scene));
+        add_samples(t.report, of.kind.names, trial);
+      }
       trials.push_back(std::move(trial));
     }
     for (std::size_t p = 0; p < of.agreements.size(); ++p) {
       const Agreement& a = of.agreements[p];
-      pairs.push_back(results::Record()
-                          .add("pair", pair_name(of, of.comparison.pairs[p]))
-                          .add("paths", of.comparison.pairs[p].common.expression())
-                          .add("comparisons", a.comparisons)
-                          .add("mean_z", a.mean_z)
-                          .add("largest_z", a.largest_z)
-                          .add("beyond", a.beyond)
-                          .add("worst", of.kind.names[a.worst]));
+      const MeanAgreement& mean = of.means[p];
+      results::Record pair;
+      pair.add("pair", pair_name(of, of.comparison.pairs[p]))
+          .add("paths", of.comparison.pairs[p].common.expression())
+          .add("comparisons", a.comparisons)
+          .add("mean_z", mean.judged ? mean.mean : a.mean_z)
+          .add("mean_z_judged", mean.judged);
+      if (mean.judged) pair.add("mean_z_allowed", mean.allowed);
+      add_samples(of.comparison.pairs[p].report, of.kind.names, pair);
+      pairs.push_back(pair.add("largest_z", a.largest_z).add("beyond", a.beyond).add("worst", of.kind.names[a.worst]));
     }
     kinds.push_back(results::Record()
                         .add("measured", of.kind.name)
@@ -239,7 +273,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
 
 /// NAME.exr and NAME.png of each, and what differs from the first beside both.
 void write_pictures(const scene::Scene& scene, scene::CameraId camera, const std::vector<std::string>& names,
-                    const CompareOptions& options, Run& run) {
+                    const FirstPass& first_pass, const CompareOptions& options, Run& run) {
   const scene::Camera& view = scene.camera(camera);
   const auto pixels = static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height);
   std::vector<std::pair<std::string, CameraPicture>> drawn;
@@ -249,6 +283,7 @@ void write_pictures(const scene::Scene& scene, scene::CameraId camera, const std
     settings.samples = montecarlo::integrator_entry(name).shares_paths ? samples * pixels : samples;
     settings.intersector = options.intersector;
     settings.paths = measure::PathClasses::of(options.paths);
+    settings.solution = first_pass.solution();
     try {
       drawn.emplace_back(name, picture_of(*montecarlo::make_integrator(name, settings), scene, camera, run));
     } catch (const core::InputError& error) {
@@ -274,18 +309,20 @@ void write_pictures(const scene::Scene& scene, scene::CameraId camera, const std
 }
 
 std::vector<Compared> compared(const scene::Scene& scene, const std::vector<Kind>& kinds,
-                               const std::vector<std::string>& names, const CompareOptions& options, Run& run) {
+                               const std::vector<std::string>& names, const FirstPass& first_pass,
+                               const CompareOptions& options, Run& run) {
   montecarlo::IntegratorSettings settings;
   settings.target = options.target;
   settings.intersector = options.intersector;
   settings.paths = measure::PathClasses::of(options.paths);
+  settings.solution = first_pass.solution();
   std::vector<Compared> all;
   for (const Kind& kind : kinds) {
     if (!all.empty() && run.stop.stop_requested()) {
       core::log::warning("stopped: " + kind.name + " were not compared");
       continue;
     }
-    all.push_back({kind, compare_integrators(scene, kind.asked, names, settings, run), {}});
+    all.push_back({kind, compare_integrators(scene, kind.asked, names, settings, run, options.replications), {}, {}});
   }
   return all;
 }
@@ -294,12 +331,24 @@ std::vector<Compared> compared(const scene::Scene& scene, const std::vector<Kind
 double judge(const scene::Scene& scene, std::vector<Compared>& all) {
   std::size_t comparisons = 0;
   for (const Compared& of : all)
-    comparisons += of.comparison.pairs.size() * validation::comparisons_of(scene, of.kind.asked.size());
-  const double z_max = validation::sidak_z_max(alpha, std::max<std::size_t>(1, comparisons));
+    comparisons += of.comparison.pairs.size() * (validation::comparisons_of(scene, of.kind.asked.size()) + 1);
+  comparisons = std::max<std::size_t>(1, comparisons);
+  const double z_max = validation::sidak_z_max(alpha, comparisons), level = validation::sidak_level(alpha, comparisons);
   for (Compared& of : all)
-    for (const IntegratorPair& pair : of.comparison.pairs)
+    for (const IntegratorPair& pair : of.comparison.pairs) {
       of.agreements.push_back(validation::agreement(scene, pair.of_a, pair.of_b, z_max));
+      of.means.push_back(
+          validation::mean_agreement(scene, {pair.of_a, pair.again_a}, {pair.of_b, pair.again_b}, level));
+    }
   return z_max;
+}
+
+/// Of all integrators those that need no solution of another method.
+std::vector<std::string> those_by_themselves() {
+  std::vector<std::string> names;
+  for (const montecarlo::IntegratorEntry& each : montecarlo::known_integrators())
+    if (!each.needs_solution) names.push_back(each.name);
+  return names;
 }
 
 }  // namespace
@@ -313,11 +362,11 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
     few = scene::CameraId{static_cast<std::uint32_t>(scene.cameras.size())};
     scene.cameras.push_back(coarse(scene.camera(*camera)));
   }
-  const std::vector<std::string> names =
-      options.integrators.empty() ? montecarlo::integrator_names() : options.integrators;
+  const std::vector<std::string> names = options.integrators.empty() ? those_by_themselves() : options.integrators;
   const results::OutputDirectory out(options.out);
   remove_leftovers(options.out);
-  std::vector<Compared> all = compared(scene, kinds_of(scene, few), names, options, run);
+  const FirstPass first_pass(scene, names, measure::PathClasses::of(options.paths), options.intersector, run);
+  std::vector<Compared> all = compared(scene, kinds_of(scene, few), names, first_pass, options, run);
   const double z_max = judge(scene, all);
   const auto write_record = [&] {
     results::write_json(options.out / "compare.json", record_of(scene, all, options, z_max, run.stop.stop_requested()));
@@ -326,11 +375,11 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
   write_record();
   const bool talk = !common.json && !common.quiet;
   if (talk)
-    std::printf("%s\n%s%s%s\n", efficiency_table(scene, all).c_str(), agreement_table(all, z_max).c_str(),
-                refusals(all).c_str(), verdict(all));
+    std::printf("%s\n%s%s%s%s\n", efficiency_table(scene, all).c_str(), agreement_table(all, z_max).c_str(),
+                refusals(all).c_str(), sample_texts(all).c_str(), verdict(all));
   std::fflush(stdout);
   try {
-    if (options.pictures && camera) write_pictures(scene, *camera, names, options, run);
+    if (options.pictures && camera) write_pictures(scene, *camera, names, first_pass, options, run);
   } catch (const core::Interrupted&) {
     core::log::warning("stopped: not every picture was drawn");
   }

@@ -78,7 +78,7 @@ ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const 
   const scene::Scene scene = read_to_solve(options.scene, SceneUse::exchange);
   fem::RadiositySettings settings;
   settings.element_size = options.element_size;
-  const mesh::ElementMesh mesh = fem::elements_of(scene, settings);
+  const mesh::ElementMesh mesh = fem::elements_of(scene, settings, mesh::is_active);
   const results::OutputDirectory folder(options.out);
   const bool talk = !common.json && !common.quiet;
   if (talk)

@@ -28,7 +28,7 @@ mesh::ElementMesh mesh_of(const scene::Scene& scene, const ViewFactorOptions& op
   fem::RadiositySettings settings;
   settings.element_size = options.element_size;
   settings.max_memory = std::numeric_limits<double>::infinity();
-  return fem::elements_of(scene, settings);
+  return fem::elements_of(scene, settings, mesh::is_active);
 }
 
 /// A mask by its own name, where no surface has it.

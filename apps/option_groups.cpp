@@ -288,7 +288,9 @@ void add_radiosity(CLI::App& command, SolveOptions& options, CLI::Option* out) {
   fem::RadiositySettings& s = options.settings;
   add_element_size(command, s.element_size, "for about 2 500 elements, more where small surfaces each need some");
   add_max_memory(command, s.max_memory);
-  const CLI::Option* method = add_form_factors(command, s.form_factors);
+  CLI::Option* method = add_form_factors(command, s.form_factors);
+  method->default_str(core::format("%s; beside mirrors hemisphere-rays", fem::default_form_factors));
+  method->each([&s](const std::string&) { s.form_factors_chosen = true; });
   CLI::Option* order = add_order(command, s, method);
   order->default_str("0; 1 with --goal or a linear --projection, 2 with --target-error");
   add_goal(command, options, method, order);

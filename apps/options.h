@@ -65,6 +65,7 @@ struct TraceOptions {
   std::filesystem::path estimates;  ///< folder for surfaces.csv and sensors.csv; empty: none
   std::string integrator = "path";
   std::string paths = "L.*E";  ///< that count
+  std::string group;           ///< of lights that shine alone; empty: all do
   double target = 0;           ///< of the picture; 0: none
   double accuracy = 0.01;
   std::string intersector = "embree";
@@ -77,6 +78,7 @@ struct CompareOptions {
   std::string paths = "L.*E";            ///< that count
   std::string camera;                    ///< empty: the scene's first
   int samples = 16;                      ///< a pixel of the pictures
+  int replications = 32;                 ///< by which mean z are judged; 0: they are told alone
   bool pictures = true;
   std::string intersector = "embree";
 };

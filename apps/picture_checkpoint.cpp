@@ -61,6 +61,7 @@ PictureCheckpoint::PictureCheckpoint(const scene::Scene& scene, scene::CameraId 
                                         .add("sequence", options.sequence)
                                         .add("integrator", options.integrator)
                                         .add("paths", options.paths)
+                                        .add("group", options.group)
                                         .add("intersector", options.intersector));
 }
 

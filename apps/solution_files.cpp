@@ -85,6 +85,7 @@ results::Record energy_record(const fem::EnergyBalance& energy, int channels) {
       .add("absorbed", energy.absorbed, channels)
       .add("escaped", energy.escaped, channels)
       .add("on_backs", energy.on_backs, channels)
+      .add("in_mirrors", energy.in_mirrors, channels)
       .add("split_standard_error", energy.split_error, channels)
       .add("form_factor_error", energy.form_factor_error, channels)
       .add("residual", energy.residual, channels);
@@ -123,6 +124,7 @@ std::string energy_text(const SolvedScene& solved) {
   std::string text =
       core::format("energy      emitted %.6g %s, absorbed %s, escaped %s, on black backs %s", emitted,
                    scene.flux_unit(), part(e.absorbed).c_str(), part(e.escaped).c_str(), part(e.on_backs).c_str());
+  if (!e.in_mirrors.is_zero()) text += ", in mirrors and glass " + part(e.in_mirrors);
   if (matrix) text += ", form-factor error " + part(e.form_factor_error);
   if (matrix && noise > 0)
     text += core::format(" +- %.2g %% (noise of the rays that escape)", core::rounded_up(100 * noise, 2));
@@ -151,7 +153,7 @@ std::string matrix_text(const RadiositySolution& s) {
 results::Record settings_record(const fem::RadiositySettings& settings, const RadiositySolution& solution) {
   results::Record record;
   record.add("element_size_m", solution.element_size)
-      .add("form_factors", settings.form_factors)
+      .add("form_factors", solution.form_factors.empty() ? settings.form_factors : solution.form_factors)
       .add("order", settings.order)
       .add("projection", fem::name_of(settings.projection))
       .add("solver", settings.solver)

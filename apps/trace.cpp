@@ -4,13 +4,17 @@
 
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
+#include "apps/first_pass.h"
 #include "apps/picture_checkpoint.h"
 #include "apps/read_scene.h"
 #include "apps/scene_questions.h"
 #include "core/error.h"
+#include "core/format.h"
 #include "core/log.h"
+#include "measure/light_groups.h"
 #include "montecarlo/integrators.h"
 #include "montecarlo/render.h"
+#include "montecarlo/sample_report.h"
 #include "results/image_file.h"
 #include "results/output_directory.h"
 #include "results/record.h"
@@ -19,9 +23,37 @@
 namespace interflect::apps {
 namespace {
 
+/// What there is to say of samples (montecarlo::SampleReport).
+struct SamplesTold {
+  std::uint64_t not_finite = 0;
+  std::size_t heavy = 0;  ///< measurements of which one sample is much
+  std::string text = {};  ///< of the worst of these
+};
+
+std::string pixel_name(std::size_t pixel, int width) {
+  const auto row = static_cast<std::size_t>(width);
+  return core::format("pixel (%zu, %zu)", pixel % row, pixel / row);
+}
+
+SamplesTold told_of(const montecarlo::Rendering& picture) {
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < picture.samples_a_pixel.data.size(); ++p)
+    names.push_back(pixel_name(p, picture.radiance.width));
+  return {picture.report.not_finite, picture.report.heavy.size(), picture.report.heavy_text(names)};
+}
+
+std::vector<std::string> names_of(const scene::Scene& scene, const SceneQuestions& questions) {
+  std::vector<std::string> names;
+  for (const auto& side : questions.sides) names.push_back(name_of(scene, side));
+  for (const measure::SensorPoint& point : questions.points)
+    names.push_back(core::format("%s[%d]", point.sensor.c_str(), point.index));
+  return names;
+}
+
 /// Surfaces and sensors by an integrator, in the columns that every method writes; a stopped run writes what it has.
 /// @throws core::Interrupted  if it has nothing for some of them
-void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run& run) {
+void write_estimates(const scene::Scene& scene, const TraceOptions& options, const FirstPass& first, Run& run,
+                     SamplesTold& told) {
   const SceneQuestions questions = questions_about(scene);
   std::vector<measure::Measurement> asked = questions.on_sides;
   asked.insert(asked.end(), questions.at_points.begin(), questions.at_points.end());
@@ -29,6 +61,9 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run
   settings.target = options.accuracy;
   settings.intersector = options.intersector;
   settings.paths = measure::PathClasses::of(options.paths);
+  montecarlo::SampleReport report;
+  settings.report = &report;
+  settings.solution = first.solution();
   const std::vector<Estimate> found =
       montecarlo::make_integrator(options.integrator, settings)->answer(scene, asked, run);
   std::vector<results::SurfaceRow> rows;
@@ -38,6 +73,7 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, Run
   results::write_surfaces_csv(options.estimates / "surfaces.csv", rows, scene);
   results::write_sensors_csv(options.estimates / "sensors.csv", questions.points,
                              std::span(found).subspan(means.size()), scene);
+  told = {report.not_finite, report.heavy.size(), report.heavy_text(names_of(scene, questions))};
 }
 
 /// What there is to tell at the end.
@@ -48,13 +84,15 @@ struct Traced {
   std::filesystem::path checkpoint;  ///< to go on from; empty where the run was not stopped
   std::filesystem::path estimates;   ///< their folder; empty where none were written
   bool stopped;
+  SamplesTold of_picture = {}, of_estimates = {};
 };
 
 /// The folder of the estimates; empty where none were asked for, or a stop came before there were any.
-std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOptions& options, Run& run) {
+std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOptions& options, const FirstPass& first,
+                                        Run& run, SamplesTold& told) {
   if (options.estimates.empty()) return {};
   try {
-    write_estimates(scene, options, run);
+    write_estimates(scene, options, first, run, told);
   } catch (const core::Interrupted&) {
     core::log::warning("stopped: no estimates were written");
     return {};
@@ -64,34 +102,8 @@ std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOp
   return options.estimates;
 }
 
-bool grows(const TraceOptions& options) {
-  return options.integrator == "path" || options.integrator == "bidirectional";
-}
-
-/// All pixels asked for at once: by those whose pictures do not grow.
-montecarlo::Rendering asked_for(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
-                                Run& run) {
-  if (options.resume || options.filter != "box" || options.sequence != "independent" || options.target > 0)
-    throw core::InputError("--integrator " + options.integrator,
-                           "pictures by it take no --resume, --filter, --sequence or --target");
-  const scene::Camera& view = scene.camera(camera);
-  const auto pixels = static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height),
-             samples = static_cast<std::uint64_t>(options.samples);
-  montecarlo::IntegratorSettings settings;
-  settings.samples = montecarlo::integrator_entry(options.integrator).shares_paths ? samples * pixels : samples;
-  settings.intersector = options.intersector;
-  settings.paths = measure::PathClasses::of(options.paths);
-  const CameraPicture picture =
-      picture_of(*montecarlo::make_integrator(options.integrator, settings), scene, camera, run);
-  montecarlo::Rendering found{picture.radiance, picture.error, {view.width, view.height, {"samples"}}, samples};
-  for (float& each : found.standard_error.data) each /= static_cast<float>(normal_95);
-  std::fill(found.samples_a_pixel.data.begin(), found.samples_a_pixel.data.end(), static_cast<float>(samples));
-  return found;
-}
-
 montecarlo::Rendering rendered(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
-                               const PictureCheckpoint& checkpoint, Run& run) {
-  if (!grows(options)) return asked_for(scene, camera, options, run);
+                               const FirstPass& first, const PictureCheckpoint& checkpoint, Run& run) {
   montecarlo::FilmState state;
   montecarlo::RenderCheckpoints checkpoints;
   if (options.resume) {
@@ -101,28 +113,48 @@ montecarlo::Rendering rendered(const scene::Scene& scene, scene::CameraId camera
   checkpoints.keep = [&](const montecarlo::FilmState& now) { checkpoint.write(now); };
   const auto rays = raycast::make_ray_caster(options.intersector, scene);
   try {
-    return montecarlo::render(scene, camera, render_settings(options), run, *rays, checkpoints);
+    montecarlo::RenderSettings settings = render_settings(options);
+    settings.solution = first.solution();
+    return montecarlo::render(scene, camera, settings, run, *rays, checkpoints);
   } catch (const core::Interrupted&) {  // before there is a picture
     core::log::warning("--resume goes on from " + checkpoint.file().string());
     throw;
   }
 }
 
+void print_text(const SamplesTold& told) {
+  if (!told.text.empty()) std::printf("%s\n", told.text.c_str());
+  if (told.not_finite > 0)
+    std::printf("%llu samples were not finite and count as zero: a bug\n",
+                static_cast<unsigned long long>(told.not_finite));
+}
+
 void print_text(const Traced& t) {
   std::printf("%s, %llu samples a pixel: %s and %s\n", t.camera.c_str(), static_cast<unsigned long long>(t.samples),
               t.exr.c_str(), t.png.c_str());
+  print_text(t.of_picture);
   if (!t.estimates.empty())
     std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(),
                 (t.estimates / "sensors.csv").c_str());
+  print_text(t.of_estimates);
   if (t.stopped)
     std::printf("stopped before all was done%s\n",
                 t.checkpoint.empty() ? "" : (": --resume goes on from " + t.checkpoint.string()).c_str());
 }
 
+void add(const SamplesTold& told, const std::string& of, results::Record& record) {
+  record.add(of + "samples_not_finite", told.not_finite).add(of + "by_one_sample", told.heavy);
+  if (!told.text.empty()) record.add(of + "worst_by_one_sample", told.text);
+}
+
 results::Record record_of(const Traced& t) {
   results::Record record;
   record.add("camera", t.camera).add("samples", t.samples).add("exr", t.exr.string()).add("png", t.png.string());
-  if (!t.estimates.empty()) record.add("estimates", t.estimates.string());
+  add(t.of_picture, "pixels_", record);
+  if (!t.estimates.empty()) {
+    record.add("estimates", t.estimates.string());
+    add(t.of_estimates, "estimates_", record);
+  }
   if (!t.checkpoint.empty()) record.add("checkpoint", t.checkpoint.string());
   return record.add("stopped", t.stopped);
 }
@@ -131,20 +163,23 @@ results::Record record_of(const Traced& t) {
 
 ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& run) {
   results::require_image_extension(options.image);
-  const scene::Scene scene = read_and_note(options.scene);
+  scene::Scene scene = read_and_note(options.scene);
+  if (!options.group.empty()) scene = measure::lit_by(std::move(scene), options.group);
   const scene::CameraId camera = camera_named(scene, options.camera);
   std::optional<results::OutputDirectory> pictures, estimates;
   if (options.image.has_parent_path()) pictures.emplace(options.image.parent_path());
   if (!options.estimates.empty()) estimates.emplace(options.estimates);
   const PictureCheckpoint checkpoint(scene, camera, options, common);
-  const montecarlo::Rendering rendering = rendered(scene, camera, options, checkpoint, run);
+  const FirstPass first(scene, {options.integrator}, measure::PathClasses::of(options.paths), options.intersector, run);
+  const montecarlo::Rendering rendering = rendered(scene, camera, options, first, checkpoint, run);
   Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, {}, false};
-  if (run.stop.stop_requested() && grows(options)) traced.checkpoint = checkpoint.file();
+  if (run.stop.stop_requested()) traced.checkpoint = checkpoint.file();
   results::write_image(
       traced.exr.replace_extension(".exr"),
       with_channels(with_errors(rendering.radiance, rendering.standard_error), rendering.samples_a_pixel));
   results::write_image(traced.png.replace_extension(".png"), results::as_rgb(scene, rendering.radiance));
-  traced.estimates = estimates_written(scene, options, run);
+  traced.of_picture = told_of(rendering);
+  traced.estimates = estimates_written(scene, options, first, run, traced.of_estimates);
   traced.stopped = run.stop.stop_requested();
   if (common.json)
     std::printf("%s\n", results::json_text(record_of(traced)).c_str());

@@ -81,9 +81,9 @@ std::unique_ptr<measure::Method> tracer_for(const ValidateOptions& options) {
 void require_reference(const ValidateOptions& options) {
   const measure::Capabilities finds = tracer_for(options)->capabilities();
   for (const measure::PathClasses* each : {&finds.to_patches, &finds.to_points})
-    if (const auto missed = measure::PathClasses::of("LD*E") - *each; !finds.unbiased || !missed.empty())
+    if (const auto missed = measure::PathClasses::of("A(D|S)*E") - *each; !finds.unbiased || !missed.empty())
       throw core::InputError("integrator '" + options.integrator + "'",
-                             "an unbiased one expected that finds all that radiosity does, LD*E" +
+                             "an unbiased one expected that finds all that radiosity does, A(D|S)*E" +
                                  (missed.empty() ? "" : ", also " + missed.shortest()));
 }
 

@@ -65,7 +65,7 @@ PairCounts assemble_rows(const FormFactorMethod& method, std::span<const scene::
   std::vector<std::uint64_t> clamped(static_cast<std::size_t>(n), 0);
   run.threads.for_blocks(n, 16, [&](Index begin, Index end) {
     for (Index a = begin; a < end; ++a)
-      for (Index b = a + 1; b < n; ++b) {
+      for (Index b = a; b < n; ++b) {
         ExchangeEntry entry = views.joined(a, b);
         const double most =
             std::min(patches[static_cast<std::size_t>(a)].area, patches[static_cast<std::size_t>(b)].area);

@@ -3,24 +3,56 @@
 #include "core/error.h"
 #include "fem/columns.h"
 #include "fem/space/polynomials.h"
+#include "fem/specular/smooth_surface.h"
 
 namespace interflect::fem {
 
 using solvers::ColumnMatrix;
 
-void require_diffuse(const scene::Scene& scene) {
+namespace {
+
+void require_lights_are_surfaces(const scene::Scene& scene) {
   if (!scene.lights.empty())
     throw core::InputError(scene.lights.first_name(),
                            "radiosity knows lights that are surfaces; interflect trace does this");
+}
+
+[[noreturn]] void refuse(const scene::Scene& scene, scene::SurfaceId id, const std::string& why) {
+  const scene::Material& material = scene.material(id);
+  throw core::InputError("'" + scene.surface(id).name + "'",
+                         "its material '" + material.name + "' is " + material.kind() + ": " + why);
+}
+
+/// A rough metal or rough glass: what has another lobe, whole, in place of a diffuse one.
+bool is_rough(const scene::Material& material) {
+  return material.opacity == 1 && !is_smooth(material) && !material.is_diffuse() &&
+         !std::holds_alternative<scene::Plastic>(material.finish);
+}
+
+}  // namespace
+
+void require_diffuse(const scene::Scene& scene) {
+  require_lights_are_surfaces(scene);
   for (const scene::SurfaceId id : scene.surface_ids())
-    if (const scene::Material& material = scene.material(id); !material.is_diffuse())
-      throw core::InputError("'" + scene.surface(id).name + "'",
-                             "its material '" + material.name + "' is " + material.kind() +
-                                 ": radiosity knows what is diffuse and opaque; interflect trace does this");
+    if (!scene.material(id).is_diffuse())
+      refuse(scene, id, "what is diffuse and opaque is expected here; interflect solve knows mirrors and smooth glass");
+}
+
+void require_diffuse_or_smooth(const scene::Scene& scene, bool rough_is_black) {
+  require_lights_are_surfaces(scene);
+  for (const scene::SurfaceId id : scene.surface_ids()) {
+    const scene::Material& material = scene.material(id);
+    if (material.is_diffuse()) continue;
+    if (!is_smooth(material) && !(rough_is_black && is_rough(material)))
+      refuse(scene, id,
+             std::string("radiosity knows what is diffuse, mirrors and smooth glass; interflect trace does this") +
+                 (is_rough(material) ? ", by --integrator two-pass with radiosity for the rest" : ""));
+    if (!material.exitance.is_zero())
+      refuse(scene, id, "one that emits is not known to radiosity; interflect trace does this");
+  }
 }
 
 ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches) {
-  require_diffuse(scene);
   ElementMaterials out;
   for (const scene::SurfacePatch& patch : patches) {
     const scene::Material& material = scene.material(patch.surface);

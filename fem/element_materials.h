@@ -14,11 +14,15 @@ namespace interflect::fem {
 /// @throws core::InputError  which surface is not diffuse
 void require_diffuse(const scene::Scene& scene);
 
-/// What elements emit and reflect.
+/// Elements are made of diffuse sides; light may also go by way of smooth surfaces (specular/specular_chains.h).
+/// @param rough_is_black  surfaces that scatter light otherwise absorb it; else they are refused
+/// @throws core::InputError  which surface is none of these
+void require_diffuse_or_smooth(const scene::Scene& scene, bool rough_is_black);
+
+/// What elements emit and reflect.  @pre  they are of diffuse materials
 struct ElementMaterials {
   std::vector<Spectrum> exitance, reflectance;
 };
-/// @throws core::InputError  where a surface is not diffuse
 ElementMaterials materials_of(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches);
 
 /// Exitance of the elements that are not of a light group becomes 0.

@@ -1,5 +1,7 @@
 #include "fem/element_rays.h"
 
+#include "scene/diffuse_sides.h"
+
 namespace interflect::fem {
 
 ElementRays::ElementRays(const scene::SurfacePatch& patch) : map_(patch), frame_(core::frame_around(patch.normal())) {}
@@ -10,7 +12,7 @@ ElementRay ElementRays::operator()(double s, double t, double u, double v) const
 }
 
 bool is_lost(const scene::Scene& scene, const std::optional<scene::SurfacePoint>& hit) {
-  return !hit || !scene.material(hit->surface).active(hit->side);
+  return !hit || !scene::is_diffuse_side(scene.material(hit->surface), hit->side);
 }
 
 }  // namespace interflect::fem

@@ -25,7 +25,7 @@ class ElementRays {
   core::Frame frame_;
 };
 
-/// Whether light is lost there: it hits nothing, or a black back.
+/// Whether light is lost there: it hits nothing, or a side without elements, which absorbs it.
 bool is_lost(const scene::Scene& scene, const std::optional<scene::SurfacePoint>& hit);
 
 }  // namespace interflect::fem

@@ -5,6 +5,7 @@
 #include "core/moments.h"
 #include "core/random.h"
 #include "fem/element_rays.h"
+#include "fem/specular/smooth_surface.h"
 
 namespace interflect::fem {
 
@@ -29,8 +30,13 @@ std::vector<double> cumulative_shares(const scene::Scene& scene, std::span<const
   return sums;
 }
 
+bool is_absorbed_by_mirror(const scene::Scene& scene, const scene::SurfacePoint& hit) {
+  const scene::Material& material = scene.material(hit.surface);
+  return material.active(hit.side) && is_smooth(material);
+}
+
 struct Tally {
-  core::Moments escaped, on_backs;
+  core::Moments escaped, on_backs, in_mirrors;
   std::uint64_t lost = 0;
 };
 
@@ -54,22 +60,26 @@ LostRays cast_lost_rays(const scene::Scene& scene, std::span<const scene::Surfac
       const ElementRay from = ElementRays(patches[i])(s, t, u, v);
       const auto hit = rays.closest(from.ray);
       const Spectrum flux = from.weight * patches[i].area / probability * radiosity[i];
-      const bool back = hit && is_lost(scene, hit);
+      const bool absorbed = hit && is_lost(scene, hit), in_mirror = absorbed && is_absorbed_by_mirror(scene, *hit);
       tally.escaped.add(hit ? Spectrum::zero() : flux);
-      tally.on_backs.add(back ? flux : Spectrum::zero());
-      tally.lost += !hit || back;
+      tally.on_backs.add(absorbed && !in_mirror ? flux : Spectrum::zero());
+      tally.in_mirrors.add(in_mirror ? flux : Spectrum::zero());
+      tally.lost += !hit || absorbed;
     }
   });
   Tally total;
   for (const Tally& tally : tallies) {
     total.escaped.merge(tally.escaped);
     total.on_backs.merge(tally.on_backs);
+    total.in_mirrors.merge(tally.in_mirrors);
     total.lost += tally.lost;
   }
   return {total.escaped.mean(),
           total.on_backs.mean(),
+          total.in_mirrors.mean(),
           total.escaped.standard_error(),
           total.on_backs.standard_error(),
+          total.in_mirrors.standard_error(),
           static_cast<std::uint64_t>(ray_count),
           total.lost};
 }
@@ -83,12 +93,14 @@ EnergyBalance energy_balance(const RadiositySolution& s, const LostRays& lost) {
     energy.absorbed += area * (s.irradiance[i] - s.reflectance[i] * s.irradiance[i]);
     if (!s.row_sum.empty()) unaccounted += area * (1.0 - s.row_sum[i]) * s.radiosity[i];
   }
-  if (s.row_sum.empty()) unaccounted = lost.escaped + lost.on_backs;
+  if (s.row_sum.empty()) unaccounted = lost.all();
   energy.escaped = lost.escaped;
   energy.on_backs = lost.on_backs;
   energy.on_backs_error = lost.on_backs_error;
-  energy.split_error = sqrt(lost.escaped_error * lost.escaped_error + lost.on_backs_error * lost.on_backs_error);
-  energy.form_factor_error = unaccounted - lost.escaped - lost.on_backs;
+  energy.in_mirrors = lost.in_mirrors;
+  energy.split_error = sqrt(lost.escaped_error * lost.escaped_error + lost.on_backs_error * lost.on_backs_error +
+                            lost.in_mirrors_error * lost.in_mirrors_error);
+  energy.form_factor_error = unaccounted - lost.all();
   energy.residual = energy.emitted - energy.absorbed - unaccounted;
   return energy;
 }

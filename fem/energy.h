@@ -7,8 +7,11 @@ namespace interflect::fem {
 
 /// Where rays that leave the elements end up.
 struct LostRays {
-  Spectrum escaped, on_backs;  ///< flux by rays [W | lm]
-  Spectrum escaped_error, on_backs_error;
+  Spectrum escaped, on_backs,
+      in_mirrors;  ///< flux by rays [W | lm]; the last in smooth surfaces, where it was absorbed
+  Spectrum escaped_error, on_backs_error, in_mirrors_error;
+
+  Spectrum all() const { return escaped + on_backs + in_mirrors; }
   std::uint64_t rays = 0, lost = 0;
 };
 

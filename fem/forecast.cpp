@@ -3,14 +3,18 @@
 
 #include "core/error.h"
 #include "core/format.h"
-#include "fem/element_materials.h"
 #include "fem/goal/adaptive_elements.h"
 #include "fem/method_trial.h"
 #include "fem/radiosity_operator.h"
 #include "fem/sampled_radiosity.h"
 #include "fem/space/polynomials.h"
+#include "fem/specular/channel_by_channel.h"
+#include "fem/specular/light_caster.h"
+#include "fem/specular/specular_chains.h"
+#include "fem/specular/specular_settings.h"
 #include "fem/tolerance_trial.h"
 #include "mesh/uniform.h"
+#include "scene/diffuse_sides.h"
 
 namespace interflect::fem {
 
@@ -76,9 +80,11 @@ std::string memory_option(double bytes) {
 
 /// Elements are made as quarters of elements of twice the size.
 double predicted_elements(const scene::Scene& scene, double size) {
-  return 4.0 * mesh::predicted_elements(scene, 2.0 * size);
+  return 4.0 * mesh::predicted_elements(scene, 2.0 * size, scene::is_diffuse_side);
 }
-double size_for(const scene::Scene& scene, double elements) { return 0.5 * mesh::edge_for(scene, elements / 4.0); }
+double size_for(const scene::Scene& scene, double elements) {
+  return 0.5 * mesh::edge_for(scene, elements / 4.0, scene::is_diffuse_side);
+}
 
 /// What to do about elements that need more memory than allowed: the smallest size, of two digits, that is predicted to
 /// fit with a fifth to spare, which is what predictions are worth.
@@ -104,7 +110,7 @@ struct Assembly {
 };
 Assembly trial(const scene::Scene& scene, const RadiositySettings& settings, const mesh::ElementMesh& mesh,
                const Run& run) {
-  const auto rays = raycast::make_ray_caster(settings.intersector, scene);
+  const auto rays = make_light_caster(settings.intersector, scene, run.seed);
   const auto make = [&](double relative) {
     FormFactorContext context = form_factor_context(scene, mesh.patches(), *rays, settings, run.seed);
     context.tolerance = relative;
@@ -125,7 +131,8 @@ Assembly trial(const scene::Scene& scene, const RadiositySettings& settings, con
 double element_size_of(const scene::Scene& scene, const RadiositySettings& settings) {
   if (settings.element_size > 0) return settings.element_size;
   const double elements = default_elements / plane_functions(settings.order);  // as many unknowns
-  return std::min(size_for(scene, elements), mesh::edge_for_area(mesh::active_area(scene), elements));
+  return std::min(size_for(scene, elements),
+                  mesh::edge_for_area(mesh::meshed_area(scene, scene::is_diffuse_side), elements));
 }
 
 bool fits_memory(double elements, const RadiositySettings& settings, Granularity granularity) {
@@ -142,10 +149,11 @@ void require_memory(const scene::Scene& scene, double elements, const RadiosityS
                                       way_out(scene, settings, granularity).c_str()));
 }
 
-mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings) {
+mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings,
+                              mesh::HasElements has_elements) {
   const double size = element_size_of(scene, settings), about = predicted_elements(scene, size);
   if (about > most_elements_to_mesh) require_memory(scene, about, settings, Granularity::pair);
-  mesh::ElementMesh mesh = mesh::quartered(mesh::uniform(scene, 2.0 * size));
+  mesh::ElementMesh mesh = mesh::quartered(mesh::uniform(scene, 2.0 * size, has_elements));
   require_memory(scene, static_cast<double>(mesh.size()), with_blocks(settings, mesh), Granularity::pair);
   return mesh;
 }
@@ -157,11 +165,20 @@ mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySetti
         core::format("elements of %g m need %s, more than the %s allowed: --element-size %g or more would fit", size,
                      core::format_bytes(bytes).c_str(), core::format_bytes(settings.max_memory).c_str(),
                      size_for(scene, settings.max_memory / bytes_an_element / 1.2)));
-  return mesh::quartered(mesh::uniform(scene, 2.0 * size));
+  return mesh::quartered(mesh::uniform(scene, 2.0 * size, scene::is_diffuse_side));
 }
 
-Forecast forecast(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
-  require_diffuse(scene);
+/// Of a scene that is solved channel by channel.
+static Forecast of_all_channels(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
+  Forecast all = forecast(in_one_channel(scene, 0), settings, run);
+  all.seconds *= scene.channel_count();
+  return all;
+}
+
+Forecast forecast(const scene::Scene& scene, const RadiositySettings& given, const Run& run) {
+  const RadiositySettings settings = with_mirrors_seen(scene, given);
+  require_solvable(scene, settings);
+  if (any_smooth(scene) && !are_smooth_ones_grey(scene)) return of_all_channels(scene, settings, run);
   if (solvers::solver_named(settings.solver).samples()) return forecast_of_sampling(scene, settings, run);
   require_compatible(settings);
   const mesh::ElementMesh mesh = settings.adaptive ? first_elements(scene, settings, *settings.adaptive)

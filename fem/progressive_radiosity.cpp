@@ -18,6 +18,7 @@ namespace {
 using solvers::ColumnMatrix;
 
 mesh::ElementMesh mesh_of(const scene::Scene& scene, const RadiositySettings& settings) {
+  require_diffuse(scene);
   if (settings.order > 0 || settings.projection != Projection::galerkin || settings.adaptive)
     throw core::InputError("progressive refinement", "constants on elements of one size are expected");
   if (settings.solver != "progressive" && settings.solver != "southwell")

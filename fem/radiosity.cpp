@@ -18,6 +18,10 @@
 #include "fem/radiosity_operator.h"
 #include "fem/row_sum_check.h"
 #include "fem/sampled_radiosity.h"
+#include "fem/specular/channel_by_channel.h"
+#include "fem/specular/light_caster.h"
+#include "fem/specular/specular_chains.h"
+#include "fem/specular/specular_settings.h"
 #include "fem/stage_clock.h"
 #include "measure/light_groups.h"
 
@@ -223,6 +227,7 @@ Elements elements_with_factors(const Problem& problem, StageClock& timed, Run& r
     });
   mesh::ElementMesh mesh = timed("mesh", [&] { return elements_of(scene, settings); });
   if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
+  require_outside_glass(scene, mesh.patches(), *raycast::make_ray_caster(settings.intersector, scene), run);
   RadiositySettings of_blocks = settings;
   of_blocks.order = order_of_blocks(settings, mesh.patches());
   RadiosityOperator from =
@@ -236,6 +241,7 @@ RadiositySolution unsolved(Elements& elements, const Problem& problem) {
       problem.settings.adaptive ? elements.mesh.longest_edge() : element_size_of(problem.scene, problem.settings);
   RadiositySolution s(std::move(elements.mesh), size);
   s.adaptation = std::move(elements.adaptation);
+  s.form_factors = problem.settings.stored_factors ? "" : problem.settings.form_factors;
   ElementMaterials materials = materials_of(problem.scene, s.mesh.patches());
   s.exitance = std::move(materials.exitance);
   s.reflectance = std::move(materials.reflectance);
@@ -310,12 +316,17 @@ RadiositySolution solution_of(const std::string& group, const Equations& equatio
 
 }  // namespace
 
-RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& asked) {
+RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& given, Run& asked) {
+  const RadiositySettings settings = with_mirrors_seen(scene, given);
+  require_solvable(scene, settings);
+  if (any_smooth(scene) && !are_smooth_ones_grey(scene))
+    return channel_by_channel(scene, settings.light_groups,
+                              [&](const scene::Scene& one) { return solve_radiosity(one, settings, asked); });
   if (solvers::solver_named(settings.solver).samples()) return sample_radiosity(scene, settings, asked);
   require_compatible(settings);
   std::vector<StageCost> stages;
   StageClock timed(stages);
-  const auto rays = timed("ray tree", [&] { return raycast::make_ray_caster(settings.intersector, scene); });
+  const auto rays = timed("ray tree", [&] { return make_light_caster(settings.intersector, scene, asked.seed); });
   const Problem problem{scene, settings, *rays};
   Elements elements = elements_with_factors(problem, timed, asked);
   const bool passes_stopped = elements.adaptation && elements.adaptation->why == AdaptiveStop::asked_to_stop;

@@ -11,14 +11,19 @@
 #include "fem/goal/adaptation.h"
 #include "fem/polynomial_field.h"
 #include "fem/projection.h"
-#include "mesh/element_mesh.h"
+#include "mesh/uniform.h"
+#include "scene/diffuse_sides.h"
 #include "solvers/solver.h"
 
 namespace interflect::fem {
 
+/// Where nothing is said, and no mirror is there to be seen in (specular/specular_settings.h).
+inline constexpr const char* default_form_factors = "gauss-lambert";
+
 struct RadiositySettings {
   double element_size = 0;  ///< longest edge [m]; 0: see element_size_of
-  std::string form_factors = "gauss-lambert";
+  std::string form_factors = default_form_factors;
+  bool form_factors_chosen = false;  ///< by name: then no others are taken, whatever there is to be seen
   int order = 0;  ///< of the polynomials on an element, 0 .. 3; from 1 on by `analytic`, `gauss-lambert` or `duffy`
   Projection projection = Projection::galerkin;
   std::string solver = "automatic";
@@ -36,6 +41,8 @@ struct RadiositySettings {
   std::uint64_t environment_rays = 1296;  ///< an element: what of it sees no other, where an open scene's closure asks
   double max_memory = 4e9;                ///< [bytes]
   bool light_groups = false;              ///< solutions of each group alone too (measure/light_groups.h)
+  bool rough_is_black =
+      false;  ///< rough metals and glass absorb instead of being refused: what two passes leave to paths
   std::optional<AdaptiveSettings>
       adaptive;  ///< elements are made for a goal, with polynomials; `element_size` is a start
   /// Where K comes from instead of `form_factors`, if there is such a source: entries of all pairs of these elements,
@@ -48,8 +55,10 @@ struct RadiositySettings {
 double element_size_of(const scene::Scene& scene, const RadiositySettings& settings);
 
 /// The scene cut into elements of that size, each four the quarters of one of twice the size.
+/// @param has_elements  sides of surfaces that are cut: those that reflect diffusely, of which solutions are
 /// @throws core::InputError  where they need more memory than `max_memory`, saying which element size would fit
-mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings);
+mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings& settings,
+                              mesh::HasElements has_elements = scene::is_diffuse_side);
 
 /// What an element carries beside K [bytes].
 constexpr double bytes_of_an_element = 4000;
@@ -85,13 +94,14 @@ struct StageCost {
   double peak_bytes;  ///< most memory that the process ever had, when the stage ended
 };
 
-/// Where the flux goes [W | lm], per channel:  emitted = absorbed + escaped + on_backs + form_factor_error + residual.
+/// Where the flux goes [W | lm], per channel:
+///   emitted = absorbed + escaped + on_backs + in_mirrors + form_factor_error + residual.
 struct EnergyBalance {
   Spectrum emitted, absorbed;
-  /// What leaves the elements and reaches none, by rays: through openings, and on black backs.
-  Spectrum escaped, on_backs;
-  Spectrum split_error, on_backs_error;  ///< standard errors of escaped + on_backs, and of on_backs alone
-  /// sum_i (1 - row sum_i) A_i B_i - escaped - on_backs: what row sums and rays disagree about.
+  /// What leaves the elements and reaches none, by rays: through openings, on black backs, in mirrors and glass.
+  Spectrum escaped, on_backs, in_mirrors;
+  Spectrum split_error, on_backs_error;  ///< standard errors of all three together, and of on_backs alone
+  /// sum_i (1 - row sum_i) A_i B_i - those three: what row sums and rays disagree about.
   Spectrum form_factor_error;
   /// emitted - absorbed - sum_i (1 - row sum_i) A_i B_i: solver error alone.
   Spectrum residual;
@@ -124,6 +134,7 @@ struct RadiositySolution {
   std::vector<double> row_sum;             ///< sum_j F_ij
   bool closed = false;                     ///< no ray that left an element was lost
   solvers::SolverReport solver;
+  std::string form_factors;  ///< the method; empty where there were none
   PairCounts pairs;
   RowSums rows;
   double closure_correction = 0;  ///< ||K' - K|| / ||K||, Frobenius; 0 where none was asked for
@@ -150,7 +161,8 @@ double mean_environment(const RadiositySolution& solution);
 
 /// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their
 /// children's, so that visibility is sampled once), and estimates the error from the difference (error_estimate.h); or
-/// without any matrix, by a solver that samples (sampled_radiosity.h).
+/// without any matrix, by a solver that samples (sampled_radiosity.h).  Beside mirrors and smooth glass elements also
+/// exchange light by way of these (specular/specular_chains.h), where they are coloured channel by channel.
 /// @throws core::InputError   no elements, too little memory, unknown names, a closure that cannot be (closure.h)
 /// @throws core::Interrupted
 RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);

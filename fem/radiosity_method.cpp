@@ -9,6 +9,7 @@
 #include "fem/gather.h"
 #include "fem/point_of_view.h"
 #include "fem/point_view_factors.h"
+#include "fem/specular/ray_gather.h"
 #include "fem/sum_noise.h"
 #include "geometry/overlap.h"
 #include "scene/film_map.h"
@@ -57,6 +58,7 @@ class Answers {
         seed_(seed),
         gather_(scene, solution.mesh.patches(), rays, seed) {
     constexpr double accuracy_of_pixels = 1e-4;
+    if (any_smooth(scene)) chains_.emplace(scene, rays, seed);
     if (s_.field) exact_.emplace(scene, s_.mesh.patches(), s_.field->order, pixel.gather ? accuracy_of_pixels : 0.0);
     for (std::size_t i = 0; i < s_.radiosity.size(); ++i) {
       importance_.push_back(std::max(0.0, scene.weigh(s_.radiosity[i])));
@@ -76,6 +78,8 @@ class Answers {
   Answer at(const measure::PointIrradiance& asked) const;
   Answer by_polynomials(const measure::PointIrradiance& asked) const;
   Answer by_constants(const measure::PointIrradiance& asked) const;
+  Answer by_mirrors(const measure::PointIrradiance& asked) const;
+  SpecularChains::End seen(const raycast::Ray& ray) const;
   Answer radiosity_at(std::size_t element, const scene::SurfacePoint& x) const;
 
   const scene::Scene& scene_;
@@ -84,6 +88,7 @@ class Answers {
   PixelRays pixel_;
   std::uint64_t seed_;
   Gather gather_;
+  std::optional<SpecularChains> chains_;   ///< beside smooth surfaces
   std::optional<PointViewFactors> exact_;  ///< of polynomials
   std::vector<double> importance_;
   std::vector<Spectrum> halving_;
@@ -123,7 +128,7 @@ void Answers::add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& til
 ///
 /// Of an element that is cut, constants know no more than the mean: its variation is added to the bound, by the cut
 /// part's share.
-/// @param plane  whether none of them sees another
+/// @param plane  whether none of them sees another, or itself in a mirror
 Estimate Answers::arriving_on(std::vector<Tile> tiles, bool plane) const {
   std::sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) { return a.element < b.element; });
   Estimate flux{Spectrum(), Spectrum(), Spectrum(), Claim::estimated, 0};
@@ -148,7 +153,7 @@ Estimate Answers::operator()(const measure::PatchIrradiance& asked) const {
   double covered = 0.0;
   for (const Tile& tile : tiles) covered += tile.area;
   if (covered <= 0.0) return {};
-  return scaled(arriving_on(std::move(tiles), true), 1.0 / covered);
+  return scaled(arriving_on(std::move(tiles), !chains_), 1.0 / covered);
 }
 
 /// All elements of that side of that surface, if the patches cover it (told by their area).
@@ -187,7 +192,7 @@ Estimate Answers::operator()(const measure::Flux& asked) const {
     }
   }
   if (!all_found) return {};  // no element lies on a part of it: nothing is claimed
-  return arriving_on(std::move(tiles), face_one_way(asked.through));
+  return arriving_on(std::move(tiles), !chains_ && face_one_way(asked.through));
 }
 
 /// Of polynomials: the iterated value, whose last bounce has no noise, less the same of the order below.
@@ -236,8 +241,32 @@ Answer Answers::by_constants(const measure::PointIrradiance& asked) const {
           noise.apart()};
 }
 
+/// As by constants, but that each ray tells of what it ends on, by whatever way.
+Answer Answers::by_mirrors(const measure::PointIrradiance& asked) const {
+  const RayGather rays(asked, *chains_, s_.mesh, seed_, key_of(asked));
+  Spectrum sizes, from_elements;
+  std::vector<Spectrum> of_elements(s_.mesh.patches().size());
+  for (const RayGather::Met& met : rays.met()) {
+    sizes += met.weight * abs(halving_[met.element]);
+    from_elements += met.weight * s_.reflectance[met.element] * s_.irradiance_error[met.element];
+    of_elements[met.element] += met.weight * s_.reflectance[met.element];
+  }
+  SumNoise noise(s_);
+  for (std::size_t j = 0; j < of_elements.size(); ++j)
+    if (!of_elements[j].is_zero()) noise.add(j, of_elements[j]);
+  const Spectrum error = from_elements + max(abs(rays.irradiance(halving_)), 0.05 * sizes);
+  return {{rays.irradiance(s_.radiosity), rays.noise(s_.radiosity), error, Claim::estimated, rays.rays()},
+          noise.together()};
+}
+
 Answer Answers::at(const measure::PointIrradiance& asked) const {
+  if (chains_) return by_mirrors(asked);
   return exact_ ? by_polynomials(asked) : by_constants(asked);
+}
+
+/// Where the light of a ray from the eye comes from.
+SpecularChains::End Answers::seen(const raycast::Ray& ray) const {
+  return chains_ ? chains_->follow(ray) : SpecularChains::End{rays_.closest(ray)};
 }
 
 Estimate Answers::operator()(const measure::PointIrradiance& asked) const { return at(asked).estimate(); }
@@ -263,7 +292,7 @@ Answer Answers::radiosity_at(std::size_t i, const scene::SurfacePoint& x) const 
 ///
 ///   SE² = SE_rays² + (1/n sum_k inherited_k / pi)²
 Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
-  const int side = pixel_.side;
+  const int side = chains_ ? std::max(2, pixel_.side) : pixel_.side;  // by mirrors a ray goes by chance
   const bool alone = side == 1;  // through the middle of the pixel, whose radiance it is then
   const scene::Camera& camera = scene_.camera(asked.camera);
   require_point_of_view(camera);
@@ -277,17 +306,17 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
     const double in_column = alone ? 0.5 : random.next(), in_row = alone ? 0.5 : random.next();
     const double x = asked.x + (column + in_column) / side, y = asked.y + (row + in_row) / side;
     const auto ray = film.ray({x, y});
-    const auto hit = ray ? rays_.closest({ray->origin, ray->direction}) : std::nullopt;
-    const auto element = hit ? s_.mesh.locate(*hit) : std::nullopt;
+    const SpecularChains::End from = ray ? seen({ray->origin, ray->direction}) : SpecularChains::End{};
+    const auto element = from.at ? s_.mesh.locate(*from.at) : std::nullopt;
     if (!element) {
-      radiance.add(Spectrum::zero());  // nothing, or a black back
+      radiance.add(Spectrum::zero());  // nothing, or what absorbs
       continue;
     }
-    const Answer B = radiosity_at(element->element.value, *hit);
-    radiance.add(inv_pi * B.by_itself.value);
-    error += share * B.by_itself.error_bound;
-    inherited += share * B.inherited;
-    of_ray = inv_pi * B.by_itself.standard_error;
+    const Answer B = radiosity_at(element->element.value, *from.at);
+    radiance.add(inv_pi * (from.weight * B.by_itself.value));
+    error += share * (from.weight * B.by_itself.error_bound);
+    inherited += share * (from.weight * B.inherited);
+    of_ray = inv_pi * (from.weight * B.by_itself.standard_error);
   }
   const Spectrum of_rays = radiance.count() > 1 ? radiance.standard_error() : of_ray;
   return {radiance.mean(), sqrt(of_rays * of_rays + inherited * inherited), error, Claim::estimated, radiance.count()};
@@ -296,7 +325,7 @@ Estimate Answers::operator()(const measure::PixelRadiance& asked) const {
 }  // namespace
 
 measure::Capabilities RadiosityMethod::capabilities() const {
-  const auto finds = measure::PathClasses::of("AD*E");
+  const auto finds = measure::PathClasses::of("A(D|S)*E");
   return {.unbiased = false, .consistent = true, .to_patches = finds, .to_points = finds, .to_pixels = finds};
 }
 

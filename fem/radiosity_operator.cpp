@@ -9,6 +9,7 @@
 #include "fem/operator/sparse_symmetric.h"
 #include "fem/row_errors.h"
 #include "fem/space/polynomials.h"
+#include "fem/specular/specular_chains.h"
 
 namespace interflect::fem {
 namespace {
@@ -197,6 +198,7 @@ FormFactorContext form_factor_context(const scene::Scene& scene, std::span<const
   context.order = settings.order;
   context.samples = settings.samples;
   context.visibility_error = settings.visibility_error;
+  context.by_mirrors = any_smooth(scene).has_value();
   return context;
 }
 

@@ -13,6 +13,8 @@
 #include "fem/error_estimate.h"
 #include "fem/operator/areas_alone.h"
 #include "fem/ray_transitions.h"
+#include "fem/specular/light_caster.h"
+#include "fem/specular/specular_chains.h"
 #include "fem/stage_clock.h"
 #include "measure/light_groups.h"
 
@@ -42,12 +44,13 @@ void require_constants(const RadiositySettings& settings) {
 /// A scene's elements and rays, and what goes by them.
 class Sampling {
  public:
-  Sampling(const scene::Scene& scene, const RadiositySettings& settings, const mesh::ElementMesh& mesh)
+  Sampling(const scene::Scene& scene, const RadiositySettings& settings, const mesh::ElementMesh& mesh,
+           std::uint64_t seed)
       : scene_(scene),
         settings_(settings),
         mesh_(mesh),
         materials_(materials_of(scene, mesh.patches())),
-        rays_(raycast::make_ray_caster(settings.intersector, scene)),
+        rays_(make_light_caster(settings.intersector, scene, seed)),
         walks_(mesh.patches(), *rays_),
         K_(areas_of(mesh)),
         rho_(to_columns(materials_.reflectance, scene.channel_count()).cwiseMax(least_reflectance)),
@@ -181,7 +184,8 @@ RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySet
   std::vector<StageCost> stages;
   StageClock timed(stages);
   const mesh::ElementMesh mesh = timed("mesh", [&] { return mesh_of(scene, settings); });
-  const Sampling sampling = timed("ray tree", [&] { return Sampling(scene, settings, mesh); });
+  require_outside_glass(scene, mesh.patches(), *raycast::make_ray_caster(settings.intersector, scene), run);
+  const Sampling sampling = timed("ray tree", [&] { return Sampling(scene, settings, mesh, run.seed); });
   RadiositySolution s =
       timed("solve", [&] { return sampling.solved(sampling.materials().exitance, settings.stopping, run); });
   Run rest = run.to_the_end();  // what there is is written, however soon the solve was stopped
@@ -205,7 +209,7 @@ RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySet
 Forecast forecast_of_sampling(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
   require_constants(settings);
   const mesh::ElementMesh mesh = mesh_of(scene, settings);
-  const Sampling sampling(scene, settings, mesh);
+  const Sampling sampling(scene, settings, mesh, run.seed);
   const double a_column = 8.0 * scene.channel_count() * (settings.solver_settings.replications + 4);
   const double solves = settings.light_groups ? 1.0 + static_cast<double>(measure::light_groups(scene).size()) : 1.0;
   const auto elements = static_cast<double>(mesh.size());

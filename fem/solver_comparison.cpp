@@ -22,6 +22,7 @@ class Equations {
  public:
   Equations(const scene::Scene& scene, const RadiositySettings& settings, const std::optional<Goal>& goal, Run& run)
       : mesh_(elements_of(scene, settings)) {
+    require_diffuse(scene);
     if (mesh_.size() == 0) throw core::InputError("the scene has no surface that light could leave");
     rays_ = raycast::make_ray_caster(settings.intersector, scene);
     RadiositySettings of_blocks = settings;

@@ -127,7 +127,7 @@ ThermalExchange solve_exchange(const scene::Scene& scene, const RadiositySetting
     out.surfaces[k].without_temperature = std::count_if(
         first, first + part.count, [](const ThermalState& state) { return std::isnan(state.temperature); });
   }
-  out.to_environment = s.energy.escaped[0] + s.energy.on_backs[0];
+  out.to_environment = s.energy.escaped[0] + s.energy.on_backs[0] + s.energy.in_mirrors[0];
   out.to_environment_error = normal_95 * s.energy.split_error[0];
   return out;
 }

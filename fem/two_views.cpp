@@ -18,6 +18,7 @@ void TwoViews::add(Index a, Index b, const ExchangeEntry& entry) {
 ExchangeEntry TwoViews::joined(Index a, Index b) const {
   if (a > b) std::swap(a, b);
   const View &x = view(a, b), &y = view(b, a);
+  if (a == b) return {x.K, x.standard_error, x.bound};
   const auto square = [](const View& v) {
     return double{v.standard_error} * v.standard_error + double{v.bound} * v.bound;
   };

@@ -22,7 +22,7 @@ class TwoViews final : public ExchangeSink {
   /// The view from a; threads may add at the same time as long as no (a, b) is added twice.
   void add(Index a, Index b, const ExchangeEntry& entry) override;
   void weigh_row(Index a, double weight) override { weights_[static_cast<std::size_t>(a)] = weight; }
-  /// Both views of a pair, joined; symmetric in a and b.
+  /// Both views of a pair, joined; symmetric in a and b.  Of an element that sees itself the one that there is.
   ExchangeEntry joined(Index a, Index b) const;
 
  private:

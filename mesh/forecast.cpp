@@ -35,11 +35,14 @@ double rounded(double x) {
 
 }  // namespace
 
-double predicted_elements(const scene::Scene& scene, double max_edge) {
+double predicted_elements(const scene::Scene& scene, double max_edge, HasElements has_elements) {
   if (!(max_edge > 0)) throw core::PreconditionError("predicted_elements: the longest edge must be positive");
   double count = 0;
   for (const scene::SurfaceId id : scene.surface_ids())
-    count += predicted_on_front(scene, id, max_edge) * (scene.material(id).active(scene::Side::back) ? 2 : 1);
+    if (const int sides =
+            has_elements(scene.material(id), scene::Side::front) + has_elements(scene.material(id), scene::Side::back);
+        sides > 0)
+      count += predicted_on_front(scene, id, max_edge) * sides;
   return count;
 }
 
@@ -48,22 +51,22 @@ double edge_for_area(double area, double elements) {
   return rounded(std::sqrt(area / (refined_triangle_area * elements)));
 }
 
-double active_area(const scene::Scene& scene) {
+double meshed_area(const scene::Scene& scene, HasElements has_elements) {
   double area = 0;
   for (const scene::SurfaceId id : scene.surface_ids())
     for (const scene::Side side : {scene::Side::front, scene::Side::back})
-      if (scene.material(id).active(side)) area += scene.area(id);
+      if (has_elements(scene.material(id), side)) area += scene.area(id);
   return area;
 }
 
-double edge_for(const scene::Scene& scene, double elements) {
+double edge_for(const scene::Scene& scene, double elements, HasElements has_elements) {
   if (!(elements > 0)) throw core::PreconditionError("edge_for: a positive number of elements expected");
   double high = scene.box().diagonal().norm(), low = high;
   if (!(high > 0)) throw core::PreconditionError("edge_for: the scene has no extent");
-  while (predicted_elements(scene, low) < elements) low *= 0.5;
+  while (predicted_elements(scene, low, has_elements) < elements) low *= 0.5;
   while (high / low > 1.005) {
     const double middle = std::sqrt(low * high);
-    (predicted_elements(scene, middle) < elements ? high : low) = middle;
+    (predicted_elements(scene, middle, has_elements) < elements ? high : low) = middle;
   }
   return rounded(std::sqrt(low * high));
 }

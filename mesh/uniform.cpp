@@ -84,24 +84,27 @@ SurfacePatch turned(SurfacePatch patch) {
   return patch;
 }
 
-/// All active sides, from what makes the elements of a front.
+/// All sides that get elements, from what makes those of a front.
 template <class Front>
-ElementMesh both_sides(const scene::Scene& scene, const Front& front_of) {
+ElementMesh both_sides(const scene::Scene& scene, HasElements has_elements, const Front& front_of) {
   std::vector<SurfacePatch> patches;
   for (const SurfaceId id : scene.surface_ids()) {
+    const bool of_front = has_elements(scene.material(id), Side::front),
+               of_back = has_elements(scene.material(id), Side::back);
+    if (!of_front && !of_back) continue;
     const std::vector<SurfacePatch> front = front_of(id);
     require_resolved(scene.surface(id), front);
-    patches.insert(patches.end(), front.begin(), front.end());
-    if (scene.material(id).active(Side::back))
+    if (of_front) patches.insert(patches.end(), front.begin(), front.end());
+    if (of_back)
       for (const SurfacePatch& patch : front) patches.push_back(turned(patch));
   }
   return ElementMesh(std::move(patches));
 }
 
-void require_few_enough(const scene::Scene& scene, double max_edge) {
+void require_few_enough(const scene::Scene& scene, double max_edge, HasElements has_elements) {
   if (!(max_edge > 0) || !std::isfinite(max_edge))
     throw core::InputError("element size", core::format("a positive length expected, not %g m", max_edge));
-  if (const double count = predicted_elements(scene, max_edge); !(count <= most_elements))
+  if (const double count = predicted_elements(scene, max_edge, has_elements); !(count <= most_elements))
     throw core::InputError("element size",
                            core::format("%g m makes %.1e elements, at most 2^31 expected", max_edge, count));
 }
@@ -109,16 +112,16 @@ void require_few_enough(const scene::Scene& scene, double max_edge) {
 }  // namespace
 
 ElementMesh whole_faces(const scene::Scene& scene) {
-  return both_sides(scene, [&](SurfaceId id) { return whole_front(scene, id); });
+  return both_sides(scene, is_active, [&](SurfaceId id) { return whole_front(scene, id); });
 }
 
-ElementMesh uniform(const scene::Scene& scene, double max_edge) {
-  require_few_enough(scene, max_edge);
-  return both_sides(scene, [&](SurfaceId id) { return front_elements(scene, id, max_edge); });
+ElementMesh uniform(const scene::Scene& scene, double max_edge, HasElements has_elements) {
+  require_few_enough(scene, max_edge, has_elements);
+  return both_sides(scene, has_elements, [&](SurfaceId id) { return front_elements(scene, id, max_edge); });
 }
 
 ElementMesh coarse(const scene::Scene& scene, double max_edge) {
-  require_few_enough(scene, max_edge);
+  require_few_enough(scene, max_edge, is_active);
   ElementMesh mesh = whole_faces(scene);
   while (mesh.longest_edge() > max_edge) {
     std::vector<bool> too_long;

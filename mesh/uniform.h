@@ -4,6 +4,10 @@
 
 namespace interflect::mesh {
 
+/// Whether a side of a surface of that material gets elements.
+using HasElements = bool (*)(const scene::Material& material, scene::Side side);
+inline bool is_active(const scene::Material& material, scene::Side side) { return material.active(side); }
+
 /// Every surface cut until no edge is longer than `max_edge` [m] (save in needles that rounding forbids to cut:
 /// bisection.h), into elements that can be cut into four.
 ///
@@ -12,7 +16,7 @@ namespace interflect::mesh {
 /// neighbours, so that the surface stays conforming [Rivara 1984].
 /// @throws core::InputError  in one line where max_edge is no positive length, where it makes more than 2^31 elements,
 ///                           and where an element is too thin for its coordinates, naming its surface and place
-ElementMesh uniform(const scene::Scene& scene, double max_edge);
+ElementMesh uniform(const scene::Scene& scene, double max_edge, HasElements has_elements = is_active);
 
 /// As few elements as there can be: a surface that is a triangle or a convex quad is one, another planar polygon its
 /// triangulation, a mesh its facets.  None is cut for its shape: needles stay needles.
@@ -38,16 +42,16 @@ PartlyQuartered quartered(const ElementMesh& mesh, const std::vector<bool>& whic
 
 /// About how many elements `uniform` makes, or would make, without making them: for forecasts.  Any number, infinity
 /// too.
-double predicted_elements(const scene::Scene& scene, double max_edge);
+double predicted_elements(const scene::Scene& scene, double max_edge, HasElements has_elements = is_active);
 
 /// Edge length for about `elements` elements, to two digits [m].
-double edge_for(const scene::Scene& scene, double elements);
+double edge_for(const scene::Scene& scene, double elements, HasElements has_elements = is_active);
 
 /// Edge length with which this area alone, however it is cut up already, would be about `elements` triangles, to two
 /// digits [m].
 double edge_for_area(double area, double elements);
 
-/// Area of all sides that light can leave [m²].
-double active_area(const scene::Scene& scene);
+/// Area of all sides that get elements [m²].
+double meshed_area(const scene::Scene& scene, HasElements has_elements = is_active);
 
 }  // namespace interflect::mesh

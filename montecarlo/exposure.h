@@ -6,6 +6,8 @@
 #include "core/run.h"
 #include "montecarlo/film/film.h"
 #include "montecarlo/film/reconstruction_filter.h"
+#include "raycast/ray_caster.h"
+#include "scene/scene.h"
 
 namespace interflect::montecarlo {
 
@@ -21,5 +23,12 @@ class Exposure {
   virtual std::uint64_t pass(Film& film, std::uint64_t done, std::uint64_t limit, core::Progress::Stage& stage,
                              const std::function<void()>& after_some) = 0;
 };
+
+struct RenderSettings;
+
+/// All must outlive it.
+using MakeExposure = std::unique_ptr<Exposure>(const scene::Scene& scene, const scene::Camera& camera,
+                                               const RenderSettings& settings, const ReconstructionFilter& filter,
+                                               const raycast::RayCaster& caster, Run& run);
 
 }  // namespace interflect::montecarlo

@@ -7,6 +7,7 @@
 #include "core/run.h"
 #include "measure/method.h"
 #include "montecarlo/integrators.h"
+#include "montecarlo/sample_report.h"
 
 namespace interflect::montecarlo {
 
@@ -17,7 +18,11 @@ struct IntegratorTrial {
   std::string missed;          ///< one of the paths that it was not asked for, since it misses them; empty: none
   measure::PathClasses paths;  ///< that were asked for
   std::vector<Estimate> found;
-  double processor_seconds = 0;  ///< of all threads, pilots and all
+  double processor_seconds = 0;  ///< of all threads, pilots, and a solution that it needs, and all
+  SampleReport report = {};      ///< of the samples behind `found`
+  /// The same by small runs of other seeds, which have as many samples as `found` all together: [replication].  None where
+  /// none were asked for, or no pair needs them, or the run was stopped before.
+  std::vector<std::vector<Estimate>> again = {};
 
   /// 1 / (relative error² x processor time) [1/s]: mean of (standard error² + bound²) / value² over the measurements
   /// whose weighed value is not 0, in the scene's weights.  Twice the samples leave it as it is where there is no bias.
@@ -29,6 +34,8 @@ struct IntegratorPair {
   std::size_t a, b;
   measure::PathClasses common;
   std::vector<Estimate> of_a, of_b;
+  SampleReport report = {};                                       ///< of runs on these paths alone
+  std::vector<std::vector<Estimate>> again_a = {}, again_b = {};  ///< as of a trial
 };
 
 struct IntegratorComparison {
@@ -37,11 +44,12 @@ struct IntegratorComparison {
 };
 
 /// Runs each of them on what it finds of `settings.paths`, and those pairs once more whose paths differ in this scene.
-/// @param asked  of one kind: patches and fluxes, points, or pixels
+/// @param asked         of one kind: patches and fluxes, points, or pixels
+/// @param replications  of each pair, to learn how its measurements hang together
 /// What has no answer when the run is stopped is refused, and held against nothing.
 /// @throws core::Interrupted  if none has one
 IntegratorComparison compare_integrators(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                          const std::vector<std::string>& names, const IntegratorSettings& settings,
-                                         Run& run);
+                                         Run& run, int replications = 0);
 
 }  // namespace interflect::montecarlo

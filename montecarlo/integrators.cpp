@@ -1,11 +1,15 @@
 #include "montecarlo/integrators.h"
 
 #include "core/error.h"
+#include "montecarlo/bidirectional/bidirectional_exposure.h"
 #include "montecarlo/bidirectional/bidirectional_tracer.h"
+#include "montecarlo/light_exposure.h"
 #include "montecarlo/light_tracer.h"
+#include "montecarlo/path_exposure.h"
 #include "montecarlo/path_tracer.h"
 #include "montecarlo/ray_tree/distributed.h"
 #include "montecarlo/ray_tree/whitted.h"
+#include "montecarlo/two_pass/two_pass.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -17,20 +21,41 @@ std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
   settings.target = asked.target;
   settings.intersector = asked.intersector;
   settings.paths = asked.paths;
+  settings.report = asked.report;
   return std::make_unique<Integrator>(std::move(settings));
+}
+
+std::unique_ptr<measure::Method> make_two_pass(const IntegratorSettings& asked) {
+  TwoPassSettings settings;
+  settings.samples = asked.samples;
+  settings.target = asked.target;
+  settings.intersector = asked.intersector;
+  settings.paths = asked.paths;
+  settings.solution = asked.solution;
+  settings.report = asked.report;
+  return std::make_unique<TwoPass>(std::move(settings));
 }
 
 }  // namespace
 
 const std::vector<IntegratorEntry>& known_integrators() {
   static const std::vector<IntegratorEntry> all{
-      {"path", "paths from what is measured, lights found by both ways", false, make<PathTracer, PathTracerSettings>},
+      {"path", "paths from what is measured, lights found by both ways", false, make<PathTracer, PathTracerSettings>,
+       path_exposure},
       {"bidirectional", "walks from both ends, joined in all ways", false,
-       make<BidirectionalTracer, BidirectionalTracerSettings>},
-      {"light", "paths from lights, all measurements by the same ones", true, make<LightTracer, LightTracerSettings>},
+       make<BidirectionalTracer, BidirectionalTracerSettings>, bidirectional_exposure},
+      {"light", "paths from lights, all measurements by the same ones", true, make<LightTracer, LightTracerSettings>,
+       light_exposure},
       {"distributed", "Cook's ray tracing: light that meets one diffuse surface at most", false,
-       make<Distributed, DistributedSettings>},
-      {"whitted", "the same without chance, and without glossy reflections", false, make<Whitted, WhittedSettings>},
+       make<Distributed, DistributedSettings>, distributed_exposure},
+      {"whitted", "the same without chance, and without glossy reflections", false, make<Whitted, WhittedSettings>,
+       whitted_exposure, true},
+      {.name = "two-pass",
+       .summary = "radiosity for what is diffuse, paths for the rest",
+       .shares_paths = false,
+       .make = make_two_pass,
+       .expose = two_pass_exposure,
+       .needs_solution = true},
   };
   return all;
 }

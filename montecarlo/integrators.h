@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "measure/method.h"
+#include "measure/surface_solution.h"
+#include "montecarlo/exposure.h"
 
 namespace interflect::montecarlo {
+
+struct SampleReport;
 
 /// What all integrators are told.
 struct IntegratorSettings {
@@ -15,12 +19,18 @@ struct IntegratorSettings {
   double target = 0.01;       ///< relative standard error
   std::string intersector = "embree";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
+  measure::SurfaceSolution solution;                         ///< of those that need one
+  SampleReport* report = nullptr;  ///< of the samples behind the answers, to be added to; null: none
 };
 
 struct IntegratorEntry {
   std::string name, summary;
   bool shares_paths;  ///< a path serves all that is asked: `samples` are of all together
   std::unique_ptr<measure::Method> (*make)(const IntegratorSettings& settings);
+  /// Pictures, that grow sample by sample and go on after a stop (render.h); null: it answers pixels alone.
+  MakeExposure* expose = nullptr;
+  bool by_quadrature = false;   ///< a picture's samples are points in `sequence_batches` copies, and may leave some out
+  bool needs_solution = false;  ///< IntegratorSettings::solution
 };
 const std::vector<IntegratorEntry>& known_integrators();
 std::vector<std::string> integrator_names();

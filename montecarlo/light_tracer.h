@@ -8,6 +8,8 @@
 
 namespace interflect::montecarlo {
 
+struct SampleReport;
+
 struct LightTracerSettings {
   std::uint64_t samples = 0;  ///< paths in all; 0: as many as `target` asks for
   double target = 0.01;       ///< relative standard error of every measurement's weighted value
@@ -15,6 +17,7 @@ struct LightTracerSettings {
   std::uint64_t max_samples = std::uint64_t{1} << 28;
   std::string intersector = "embree";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
+  SampleReport* report = nullptr;  ///< of the samples behind the answers, to be added to; null: none
 };
 
 /// Light tracing [Arvo, Kirk 1990; Dutre, Lafortune, Willems 1993]: paths start on lights, in proportion to their flux,

@@ -8,9 +8,12 @@ namespace interflect::montecarlo {
 
 namespace {
 
-// Dimensions: the place, or the film and the lens, own the first two blocks; the path owns the rest.
-constexpr std::uint32_t film_block = 0, lens_block = 1, path_block = 2;
+// Dimensions: the place, or the film and the lens, own the first block or two; the path owns the rest, at once, so that
+// of a sequence's groups of four one holds the place and the point of the light that is drawn for it.
+constexpr std::uint32_t film_block = 0, lens_block = 1;
 constexpr std::uint32_t second_path_block = 1u << 30;  // no path comes that far
+
+std::uint32_t path_block(const scene::FilmMap& film) { return film.has_lens() ? lens_block + 1 : film_block + 1; }
 
 const ReconstructionFilter& box() {
   static const std::unique_ptr<ReconstructionFilter> filter = make_filter("box");
@@ -49,7 +52,7 @@ Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& fil
     return ray ? paths.radiance(ray->origin, ray->direction, numbers, block) : Spectrum::zero();
   };
   const double negative = filter.negative();
-  const Spectrum found = radiance(filter.sample(at.u, at.v), path_block);
+  const Spectrum found = radiance(filter.sample(at.u, at.v), path_block(film));
   if (negative == 0) return found;
   return (1 + negative) * found - negative * radiance(filter.sample_negative(at.u, at.v), second_path_block);
 }
@@ -58,7 +61,7 @@ void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter
                   const PathEstimator& paths, const PathEstimator::Keys& keys, std::span<Spectrum> samples) {
   std::vector<OnFilm> at;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    core::RandomNumbers numbers(keys.seed, keys.stream, keys.first + k);
+    core::RandomNumbers numbers = keys.numbers(k);
     at.push_back(on_film(film, numbers));
   }
   std::vector<Spectrum> found(samples.size());
@@ -70,7 +73,7 @@ void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter
     }
     paths.radiance(rays, keys, block, found);
   };
-  radiances([&](const OnFilm& each) { return filter.sample(each.u, each.v); }, path_block);
+  radiances([&](const OnFilm& each) { return filter.sample(each.u, each.v); }, path_block(film));
   std::copy(found.begin(), found.end(), samples.begin());
   const double negative = filter.negative();
   if (negative == 0) return;
@@ -89,10 +92,16 @@ MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure:
   }
 }
 
+std::optional<raycast::Ray> MeasurementSampler::ray(core::RandomNumbers& numbers) const {
+  const OnFilm at = on_film(*film_, numbers);
+  const auto seen = film_->ray(middle_of(pixel_) + box().sample(at.u, at.v), at.lens);
+  return seen ? std::optional(raycast::Ray{seen->origin, seen->direction}) : std::nullopt;
+}
+
 Spectrum MeasurementSampler::sample(const PathEstimator& paths, core::RandomNumbers& numbers) const {
   if (film_) return film_sample(*film_, box(), pixel_, paths, numbers);
   const Receiver at = place_->draw(numbers);
-  return scale_ * paths.irradiance(at, numbers, path_block);
+  return scale_ * paths.irradiance(at, numbers, place_->blocks());
 }
 
 void MeasurementSampler::sample(const PathEstimator& paths, const PathEstimator::Keys& keys,
@@ -103,10 +112,10 @@ void MeasurementSampler::sample(const PathEstimator& paths, const PathEstimator:
   }
   std::vector<Receiver> at;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    core::RandomNumbers numbers(keys.seed, keys.stream, keys.first + k);
+    core::RandomNumbers numbers = keys.numbers(k);
     at.push_back(place_->draw(numbers));
   }
-  paths.irradiance(at, keys, path_block, samples);
+  paths.irradiance(at, keys, place_->blocks(), samples);
   for (Spectrum& each : samples) each = scale_ * each;
 }
 

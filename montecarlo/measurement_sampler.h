@@ -40,6 +40,12 @@ class MeasurementSampler {
   /// What an irradiance of 1 everywhere would measure: 1, the area of a flux [m²], 1 / pi for a pixel [1/sr].
   double scale() const { return scale_; }
 
+  bool is_pixel() const { return film_ != nullptr; }
+  /// Where a sample's path begins, by the numbers that `sample` takes for it: a pixel's, nothing where it sees none.
+  std::optional<raycast::Ray> ray(core::RandomNumbers& numbers) const;
+  /// That of all others.
+  Receiver receiver(core::RandomNumbers& numbers) const { return place_->draw(numbers); }
+
  private:
   double scale_ = 1;
   std::optional<ReceiverSampler> place_;        ///< of a patch, flux or point

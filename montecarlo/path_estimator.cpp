@@ -48,7 +48,7 @@ void PathEstimator::follow(Vertex at, Carried& path, core::RandomNumbers& number
   for (;; block += blocks_per_vertex) {
     numbers.jump(block);
     Numbers drawn_here;
-    for (double* each : {&drawn_here.u, &drawn_here.v, &drawn_here.pick, &drawn_here.on_u, &drawn_here.on_v,
+    for (double* each : {&drawn_here.on_u, &drawn_here.on_v, &drawn_here.u, &drawn_here.v, &drawn_here.pick,
                          &drawn_here.survival, &drawn_here.lobe})
       *each = numbers.next();
     const Place place = place_of(at);

@@ -43,12 +43,16 @@ class PathEstimator {
   /// Radiance L that comes to a point in free space along -direction.
   Spectrum radiance(const Vec3& eye, const Vec3& direction, core::RandomNumbers& numbers, std::uint32_t block) const;
 
-  /// The same of many paths that are traced together, several times sooner: path k by the numbers of sample first + k,
-  /// bit by bit.
+  /// The same of many paths that are traced together, several times sooner: path k by keys.numbers(k), bit by bit.
   struct Keys {
     std::uint64_t seed;
     std::uint32_t stream;
     std::uint64_t first;
+    std::span<const double> given = {};  ///< sample by sample the first numbers of each, those of a sequence
+    std::size_t given_each = 0;          ///< an even number
+
+    std::span<const double> given_to(std::size_t k) const { return given.subspan(k * given_each, given_each); }
+    core::RandomNumbers numbers(std::size_t k) const { return {seed, stream, first + k, given_to(k)}; }
   };
   void irradiance(std::span<const Receiver> at, const Keys& keys, std::uint32_t block, std::span<Spectrum> found) const;
   /// @param from_eye  none: a path that finds nothing
@@ -84,11 +88,12 @@ class PathEstimator {
     measure::PathClasses::FromEye letters;
   };
   Carried from_eye() const;
-  /// Direction 2, light 1, point on it 2, survival 1, lobe 1, and one that is left.
+  /// Point on the light 2, direction 2, light 1, survival 1, lobe 1, and one that is left.
   static constexpr std::uint32_t blocks_per_vertex = 4;
-  /// What one vertex does with its numbers.
+  /// What one vertex does with its numbers: those that belong together first, as pairs, since sequences are the more
+  /// even the fewer dimensions they are looked at in.
   struct Numbers {
-    double u, v, pick, on_u, on_v, survival, lobe;
+    double on_u, on_v, u, v, pick, survival, lobe;
   };
   /// Light that is found at a vertex if nothing is in between.
   struct Candidate {

@@ -13,7 +13,7 @@ namespace interflect::montecarlo {
 namespace {
 
 SamplingSettings sampling_of(const PathTracerSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples};
+  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
 }
 
 class PathTraced final : public SampledMeasurements {

@@ -11,6 +11,8 @@
 
 namespace interflect::montecarlo {
 
+struct SampleReport;
+
 struct PathTracerSettings {
   std::uint64_t samples = 0;  ///< per measurement; 0: as many as `target` asks for
   double target = 0.01;       ///< relative standard error, per measurement, of its weighted value
@@ -18,6 +20,7 @@ struct PathTracerSettings {
   std::uint64_t max_samples = 1u << 26;  ///< per measurement, by a target: those that it ends are warned of
   std::string intersector = "embree";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
+  SampleReport* report = nullptr;  ///< of the samples behind the answers, to be added to; null: none
 };
 
 /// Path tracing (Kajiya 1986): next-event estimation combined with direction sampling by multiple importance sampling

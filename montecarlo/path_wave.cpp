@@ -11,7 +11,8 @@ class PathEstimator::Wave {
   /// So many that what they are stays in the nearest cache, and packets are full but at the end.
   static constexpr std::size_t most = 64;
 
-  Wave(const PathEstimator& of, const Keys& keys) : of_(of), keys_(keys), paths_(most) {}
+  Wave(const PathEstimator& of, const Keys& keys, std::size_t count)
+      : of_(of), keys_(keys), paths_(std::min(most, count)) {}
 
   /// Of samples keys.first + first on.
   void begin(std::size_t first, std::size_t count) {
@@ -38,8 +39,8 @@ class PathEstimator::Wave {
   void follow(std::uint32_t block) {
     for (; !live_.empty(); block += blocks_per_vertex) {
       draw(block);
+      scatter();
       light();
-      go_on();
       arrive();
     }
   }
@@ -54,29 +55,48 @@ class PathEstimator::Wave {
   static constexpr std::size_t numbers_per_vertex = 2 * blocks_per_vertex;
 
   void draw(std::uint32_t block) {
-    indices_.clear();
-    for (const std::uint32_t k : live_) indices_.push_back(keys_.first + first_ + k);
+    const std::size_t at = 2 * std::size_t{block},
+                      given = std::clamp(keys_.given_each, at, at + numbers_per_vertex) - at;
     numbers_.resize(live_.size() * numbers_per_vertex);
-    core::random_numbers(keys_.seed, keys_.stream, indices_, 2 * std::size_t{block}, numbers_per_vertex, numbers_);
+    if (given < numbers_per_vertex) {
+      indices_.clear();
+      for (const std::uint32_t k : live_) indices_.push_back(keys_.first + first_ + k);
+      core::random_numbers(keys_.seed, keys_.stream, indices_, at, numbers_per_vertex, numbers_);
+    }
+    if (given == 0) return;
+    for (std::size_t j = 0; j < live_.size(); ++j)
+      std::copy_n(&keys_.given_to(first_ + live_[j])[at], given, &numbers_[j * numbers_per_vertex]);
   }
   Numbers numbers(std::size_t j) const {
     const double* u = &numbers_[j * numbers_per_vertex];
     return {u[0], u[1], u[2], u[3], u[4], u[5], u[6]};
   }
 
-  /// Each picks a light, and gets what nothing hides.
-  void light() {
+  /// Each picks a light, and a direction to go on in, or ends.
+  void scatter() {
     segments_.clear();
     candidates_.clear();
+    std::size_t kept = 0;
     for (std::size_t j = 0; j < live_.size(); ++j) {
-      Path& path = paths_[live_[j]];
+      const std::uint32_t k = live_[j];
+      Path& path = paths_[k];
       const Numbers drawn = numbers(j);
-      const auto candidate =
-          of_.from_lights(path.at, path.carried, place_of(path.at), drawn.pick, drawn.on_u, drawn.on_v);
-      if (!candidate) continue;
-      segments_.push_back(candidate->segment);
-      candidates_.push_back({live_[j], candidate->of, candidate->light});
+      const Place place = place_of(path.at);
+      if (const auto light = of_.from_lights(path.at, path.carried, place, drawn.pick, drawn.on_u, drawn.on_v)) {
+        segments_.push_back(light->segment);
+        candidates_.push_back({k, light->of, path.carried.throughput, light->light});
+      }
+      if (of_.goes_on(path.at, place, drawn, path.carried, path.drawn)) live_[kept++] = k;
     }
+    live_.resize(kept);
+  }
+  struct Found {
+    std::uint32_t path, light;
+    Spectrum throughput, value;
+  };
+
+  /// What nothing hides of that.
+  void light() {
     if (!of_.sight_.only_blocks()) {
       for (std::size_t c = 0; c < candidates_.size(); ++c)
         add(candidates_[c], of_.sight_.let_pass(segments_[c], candidates_[c].light) * candidates_[c].value);
@@ -87,22 +107,8 @@ class PathEstimator::Wave {
     for (std::size_t c = 0; c < candidates_.size(); ++c)
       if (blocked_[c] == 0) add(candidates_[c], candidates_[c].value);
   }
-  struct Found {
-    std::uint32_t path, light;
-    Spectrum value;
-  };
   void add(const Found& candidate, const Spectrum& value) {
-    Carried& path = paths_[candidate.path].carried;
-    path.found += path.throughput * value;
-  }
-
-  void go_on() {
-    std::size_t kept = 0;
-    for (std::size_t j = 0; j < live_.size(); ++j) {
-      Path& path = paths_[live_[j]];
-      if (of_.goes_on(path.at, place_of(path.at), numbers(j), path.carried, path.drawn)) live_[kept++] = live_[j];
-    }
-    live_.resize(kept);
+    paths_[candidate.path].carried.found += candidate.throughput * value;
   }
 
   void arrive() {
@@ -137,7 +143,7 @@ class PathEstimator::Wave {
 
 void PathEstimator::irradiance(std::span<const Receiver> at, const Keys& keys, std::uint32_t block,
                                std::span<Spectrum> found) const {
-  Wave wave(*this, keys);
+  Wave wave(*this, keys, at.size());
   for (std::size_t first = 0; first < at.size(); first += Wave::most) {
     const std::size_t count = std::min(Wave::most, at.size() - first);
     wave.begin(first, count);
@@ -149,7 +155,7 @@ void PathEstimator::irradiance(std::span<const Receiver> at, const Keys& keys, s
 
 void PathEstimator::radiance(std::span<const std::optional<raycast::Ray>> from_eye, const Keys& keys,
                              std::uint32_t block, std::span<Spectrum> found) const {
-  Wave wave(*this, keys);
+  Wave wave(*this, keys, from_eye.size());
   for (std::size_t first = 0; first < from_eye.size(); first += Wave::most) {
     const std::size_t count = std::min(Wave::most, from_eye.size() - first);
     wave.begin(first, count);

@@ -20,7 +20,7 @@ ReceiverSampler::ReceiverSampler(const measure::Measurement& asked) {
 void ReceiverSampler::set_regions(std::span<const scene::SurfacePatch> patches) {
   std::vector<double> areas;
   for (const scene::SurfacePatch& patch : patches) {
-    regions_.push_back({patch, patch.normal()});
+    regions_.push_back({patch, patch.normal(), first_triangle_share(patch)});
     areas.push_back(patch.area);
   }
   pick_ = AliasTable(areas);
@@ -33,8 +33,8 @@ Receiver ReceiverSampler::at(double u, double v) const {
   std::size_t region = 0;
   for (; region + 1 < regions_.size() && left >= regions_[region].patch.area; ++region)
     left -= regions_[region].patch.area;
-  const auto& [patch, normal] = regions_[region];
-  return {patch_point(patch, std::min(left / patch.area, 1 - 0x1p-53), v), normal};
+  const auto& [patch, normal, share] = regions_[region];
+  return {patch_point(patch, share, std::min(left / patch.area, 1 - 0x1p-53), v), normal};
 }
 
 Receiver ReceiverSampler::draw(core::RandomNumbers& numbers) const {
@@ -46,8 +46,8 @@ Receiver ReceiverSampler::draw(core::RandomNumbers& numbers) const {
   }
   numbers.jump(place_block);
   const double u = numbers.next(), v = numbers.next();
-  const auto& [patch, normal] = regions_[region];
-  return {patch_point(patch, u, v), normal};
+  const auto& [patch, normal, share] = regions_[region];
+  return {patch_point(patch, share, u, v), normal};
 }
 
 }  // namespace interflect::montecarlo

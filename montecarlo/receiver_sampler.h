@@ -17,6 +17,7 @@ class ReceiverSampler {
 
   /// Dimensions: block 0, and 1 where there are several patches.
   Receiver draw(core::RandomNumbers& numbers) const;
+  std::uint32_t blocks() const { return regions_.size() > 1 ? 2 : 1; }
   /// The place of (u, v) in the unit square: of several patches u says which, and where on it.
   Receiver at(double u, double v) const;
   /// Of that [1/m²]; 0 of a point.
@@ -26,6 +27,7 @@ class ReceiverSampler {
   struct Region {
     scene::SurfacePatch patch;
     Vec3 normal;
+    double first_share;  ///< first_triangle_share
   };
   void set_regions(std::span<const scene::SurfacePatch> patches);
 

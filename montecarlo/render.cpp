@@ -1,7 +1,6 @@
 #include "montecarlo/render.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -11,12 +10,9 @@
 #include "core/format.h"
 #include "core/log.h"
 #include "core/seconds_since.h"
-#include "montecarlo/bidirectional/bidirectional_tracer.h"
-#include "montecarlo/bidirectional/sweep_exposure.h"
 #include "montecarlo/film/film.h"
 #include "montecarlo/film/reconstruction_filter.h"
-#include "montecarlo/path_exposure.h"
-#include "montecarlo/path_tracer.h"
+#include "montecarlo/integrators.h"
 #include "montecarlo/scene_paths.h"
 #include "montecarlo/tally.h"
 #include "scene/film_map.h"
@@ -28,47 +24,44 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_look = 64;
 
-/// Those that expose films.
-struct PainterEntry {
-  std::string integrator;
-  std::unique_ptr<measure::Method> method;  ///< for what it finds
-  std::unique_ptr<Exposure> (*make)(const scene::Scene&, const scene::Camera&, const RenderSettings&,
-                                    const ReconstructionFilter&, const raycast::RayCaster&, Run&);
-};
-const std::array<PainterEntry, 2>& painters() {
-  static const std::array<PainterEntry, 2> all{
-      PainterEntry{"path", std::make_unique<PathTracer>(), path_exposure},
-      PainterEntry{"bidirectional", std::make_unique<BidirectionalTracer>(), sweep_exposure}};
-  return all;
-}
-const PainterEntry& painter_named(const std::string& integrator) {
-  for (const PainterEntry& each : painters())
-    if (each.integrator == integrator) return each;
-  throw core::InputError("render", "pictures that grow are made by path or bidirectional, not by " + integrator);
+int batches_of(const RenderSettings& settings) {
+  return settings.independent() && !integrator_entry(settings.integrator).by_quadrature ? 0 : sequence_batches;
 }
 
 void require_valid(const scene::Scene& scene, scene::CameraId id, const RenderSettings& settings) {
   if (id.value >= scene.cameras.size()) throw core::InputError("render", "a camera of the scene expected");
   scene::require_valid(scene.camera(id));
   const measure::Measurement pixel = measure::PixelRadiance{id, 0, 0};
-  require_found(*painter_named(settings.integrator).method, scene, {&pixel, 1}, settings.paths);
+  const IntegratorEntry& integrator = integrator_entry(settings.integrator);
+  if (integrator.expose == nullptr)
+    throw core::InputError("integrator '" + settings.integrator + "'", "one whose pictures grow expected");
+  require_found(*integrator.make({}), scene, {&pixel, 1}, settings.paths);
   if (!(settings.target >= 0)) throw core::InputError("render", "a target of at least 0 expected");
   if (settings.integrator != "path" && !settings.independent())
     throw core::InputError("render", "numbers of a sequence are for path tracing alone");
   if (settings.samples == 0) throw core::InputError("render", "at least one sample a pixel expected");
-  if (!settings.independent() && settings.samples % sequence_batches != 0)
-    throw core::InputError("render", core::format("samples of the sequence '%s' come in %d randomisations, which say "
-                                                  "how large errors are: a multiple of %d a pixel expected, not %llu",
-                                                  settings.sequence.c_str(), sequence_batches, sequence_batches,
-                                                  static_cast<unsigned long long>(settings.samples)));
+  if (batches_of(settings) > 0 && settings.samples % sequence_batches != 0)
+    throw core::InputError(
+        "render", core::format("samples of %s come in %d randomisations, which say how large errors are: a multiple of "
+                               "%d a pixel expected, not %llu",
+                               settings.independent() ? settings.integrator.c_str()
+                                                      : ("the sequence '" + settings.sequence + "'").c_str(),
+                               sequence_batches, sequence_batches, static_cast<unsigned long long>(settings.samples)));
 }
 
 std::size_t pixels_of(const scene::Camera& camera) {
   return static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
 }
 
-Film empty_film(const scene::Scene& scene, const scene::Camera& camera, const RenderSettings& settings) {
-  return {pixels_of(camera), scene.channel_count(), settings.independent() ? 0 : sequence_batches};
+Film empty_film(const scene::Scene& scene, std::size_t pixels, const RenderSettings& settings) {
+  const IntegratorEntry& integrator = integrator_entry(settings.integrator);
+  return {pixels, scene.channel_count(), batches_of(settings), integrator.by_quadrature || integrator.needs_solution};
+}
+
+/// Noise, and as much more as makes of 95 % of it what covers a bound too.
+template <class T>
+T error_of(const T& standard_error, const T& bound) {
+  return standard_error + bound * (1 / normal_95);
 }
 
 class Painter {
@@ -80,10 +73,10 @@ class Painter {
         camera_(scene.camera(id)),
         map_(camera_),
         filter_(make_filter(settings.filter)),
-        exposure_(painter_named(settings.integrator).make(scene, camera_, settings, *filter_, caster, run)),
+        exposure_(integrator_entry(settings.integrator).expose(scene, camera_, settings, *filter_, caster, run)),
         run_(run),
         checkpoints_(checkpoints),
-        film_(empty_film(scene, camera_, settings)) {
+        film_(empty_film(scene, pixels_of(camera_), settings)) {
     if (checkpoints.from != nullptr) film_.restore(*checkpoints.from);
     for (std::size_t p = 0; p < film_.pixels(); ++p)
       if (film_.samples(p) > settings.samples)
@@ -130,13 +123,13 @@ class Painter {
     for (std::size_t p = 0; p < film_.pixels(); ++p) {
       const Estimate pixel = film_.estimate(p, largest);
       values.push_back(scene_.weigh(pixel.value));
-      errors.push_back(weighed_standard_error(scene_, pixel));
+      errors.push_back(error_of(weighed_standard_error(scene_, pixel), scene_.weigh(pixel.error_bound)));
     }
     const double floor = 0.1 * std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     double sum = 0;
     for (std::size_t p = 0; p < values.size(); ++p) {
       const double relative = errors[p] / std::max(values[p], floor);
-      sum += std::isfinite(relative) ? relative * relative : 0;
+      if (!std::isnan(relative)) sum += relative * relative;  // not of what is dark, and all of the picture with it
     }
     return std::sqrt(sum / static_cast<double>(values.size()));
   }
@@ -159,12 +152,14 @@ class Painter {
         const Vec2 middle(x + 0.5, y + 0.5), reach = Vec2::Constant(filter_->reach());
         if (!map_.in_sight(middle - reach, middle + reach)) continue;  // exactly 0
         const Estimate pixel = film_.estimate(p, largest);
+        picture.report.add(p, film_.tally(p));
+        const Spectrum error = error_of(pixel.standard_error, pixel.error_bound);
         for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
           picture.radiance.at(x, y, c) = static_cast<float>(pixel.value[c]);
-          picture.standard_error.at(x, y, c) = static_cast<float>(pixel.standard_error[c]);
+          picture.standard_error.at(x, y, c) = static_cast<float>(error[c]);
         }
       }
-    if (const std::uint64_t not_finite = film_.not_finite(); not_finite > 0)
+    if (const std::uint64_t not_finite = picture.report.not_finite; not_finite > 0)
       core::log::warning(core::format("render: %llu samples are not finite and count as zero (seed %llu)",
                                       static_cast<unsigned long long>(not_finite),
                                       static_cast<unsigned long long>(run_.seed)));
@@ -188,8 +183,7 @@ class Painter {
 
 std::pair<Index, Index> render_state_size(const scene::Scene& scene, scene::CameraId id,
                                           const RenderSettings& settings) {
-  const Film one_pixel(1, scene.channel_count(), settings.independent() ? 0 : sequence_batches);
-  return {static_cast<Index>(pixels_of(scene.camera(id))), one_pixel.state_columns()};
+  return {static_cast<Index>(pixels_of(scene.camera(id))), empty_film(scene, 1, settings).state_columns()};
 }
 
 Rendering render(const scene::Scene& scene, scene::CameraId id, const RenderSettings& settings, Run& run,

@@ -7,7 +7,9 @@
 #include "core/image.h"
 #include "core/run.h"
 #include "measure/path_classes.h"
+#include "measure/surface_solution.h"
 #include "montecarlo/film/film_state.h"
+#include "montecarlo/sample_report.h"
 #include "raycast/ray_caster.h"
 #include "scene/scene.h"
 
@@ -15,20 +17,23 @@ namespace interflect::montecarlo {
 
 /// A picture with what is known of its noise.
 struct Rendering {
-  core::Image radiance;         ///< L per pixel and channel [W/(m² sr) | cd/m²]
-  core::Image standard_error;   ///< of the radiance, same unit; infinite where a pixel has a single sample
+  core::Image radiance;        ///< L per pixel and channel [W/(m² sr) | cd/m²]
+  core::Image standard_error;  ///< of the radiance, same unit, and 1/1.96 of a bound on the rest of the error, where an
+                               ///< integrator has one; infinite where a pixel has a single sample, or one not finite
   core::Image samples_a_pixel;  ///< one channel, "samples"
   std::uint64_t samples = 0;    ///< that every pixel has; more in some, if the run was stopped within a pass
+  SampleReport report = {};     ///< of measurement y * width + x each
 };
 
 struct RenderSettings {
-  std::uint64_t samples = 64;  ///< a pixel; but for independent ones a multiple of `sequence_batches`
+  std::uint64_t samples = 64;  ///< a pixel; but for independent ones, and of whitted, a multiple of `sequence_batches`
   std::string filter = "box";
   std::string sequence = "independent";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
-  std::string integrator = "path";                           ///< or "bidirectional": those whose pictures grow
+  std::string integrator = "path";                           ///< see known_integrators
   /// Above 0: it ends earlier where the relative standard errors of its pixels are below that in the root mean square.
   double target = 0;
+  measure::SurfaceSolution solution = {};  ///< of integrators that need one
 
   bool independent() const { return sequence == "independent"; }
 };
@@ -48,17 +53,18 @@ struct RenderCheckpoints {
 std::pair<Index, Index> render_state_size(const scene::Scene& scene, scene::CameraId camera,
                                           const RenderSettings& settings);
 
-/// Path-traced picture: the mean radiance over each pixel's area on the film (scene::Camera), or what the filter makes
-/// of the film, `samples` paths a pixel (see PathTracer for the estimator and for the standard error of pixels that saw
-/// nothing).  What no ray sees, outside of a fisheye's disk, is exactly 0.
+/// Picture by an integrator: the mean radiance over each pixel's area on the film (scene::Camera), or what the filter
+/// makes of the film, `samples` paths a pixel (see PathTracer for the estimator and for the standard error of pixels that
+/// saw nothing).  What no ray sees, outside of a fisheye's disk, is exactly 0.
 ///
 /// Sample k of a pixel is keyed by (seed, pixel, k): same bits for any number of threads, and for a run that goes on
 /// from where another was stopped, with more samples too.  It is rendered in passes over all pixels, and a run that is
 /// stopped gives the whole picture with the samples so far.
 ///
-/// Bidirectional pictures come in sweeps over all pixels, which share walks from lights (BidirectionalFilm).
+/// Pictures by bidirectional path tracing and by light tracing come in sweeps over all pixels, which share walks from
+/// lights (SweepExposure); whitted's in sixteen copies of a quadrature (whitted_exposure).
 ///
-/// Of a sequence the first numbers of a path are its points', those of the film, the lens and four vertices, each
+/// Of a sequence the first numbers of a path are its points', those of the film, the lens and the first vertex, each
 /// pixel's by randomisations of its own.
 /// @throws core::Interrupted  if it is stopped before every pixel has a sample, after its state was kept
 /// @throws core::InputError   if there is no such camera, or no samples are asked for, or a filter or sequence that is

@@ -144,8 +144,11 @@ std::vector<Estimate> sampled_answers(const SampledMeasurements& measurements, c
   const std::vector<Tally> tallies = sample_all(measurements, counts, seed, run);
   std::vector<Estimate> estimates;
   estimates.reserve(tallies.size());
+  SampleReport ignored;
+  SampleReport& report = settings.report != nullptr ? *settings.report : ignored;
   for (std::size_t m = 0; m < tallies.size(); ++m) {
     warn_of_bugs(tallies[m], measurements.name().c_str(), m, seed);
+    report.add(m, tallies[m]);
     estimates.push_back(tallies[m].estimate(measurements.scale(m) * measurements.largest_score()));
   }
   if (settings.samples == 0) warn_of_cap(measurements, target, estimates);

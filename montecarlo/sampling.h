@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/run.h"
-#include "montecarlo/tally.h"
+#include "montecarlo/sample_report.h"
 
 namespace interflect::montecarlo {
 
@@ -55,6 +55,7 @@ struct SamplingSettings {
   double target;          ///< relative standard error of its weighted value
   double target_floor;    ///< ... or relative to this part of the scene's mean irradiance, so that dark places end
   std::uint64_t max_samples;
+  SampleReport* report = nullptr;  ///< to be added to
 };
 /// @throws core::InputError  of `who`, for settings out of range
 void require_valid(const SamplingSettings& settings, const std::string& who);

@@ -4,8 +4,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
-#include "montecarlo/path_letters.h"
-#include "montecarlo/surface_optics.h"
+#include "montecarlo/bsdf/of_material.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -60,12 +59,9 @@ measure::PathClasses paths_in(const scene::Scene& scene) {
              far = !lights.suns.empty() || lights.has_sky();
   const std::string from = any_of("APF", {area, points, far});
   std::array<bool, measure::path_letters> scatters{};
-  const SurfaceOptics optics(scene);
   for (const scene::SurfaceId id : scene.surface_ids()) {
-    const Bsdf* bsdf = optics.bsdf(id);
-    if (bsdf == nullptr) continue;
-    if (!bsdf->only_delta()) scatters[bsdf->glossy() ? 1 : 0] = true;
-    if (bsdf->mirrors()) scatters[2] = true;
+    const Scatters by_this = scatters_of(scene.material(id));
+    scatters[0] |= by_this.diffuse, scatters[1] |= by_this.glossy, scatters[2] |= by_this.specular;
   }
   const std::string by = any_of("DGS", scatters);
   if (from.empty()) return measure::PathClasses::of("");

@@ -1,24 +1,34 @@
 #include "montecarlo/splat_targets.h"
 
-#include <cmath>
 #include <map>
+#include <numeric>
 
 namespace interflect::montecarlo {
+namespace {
+
+const ReconstructionFilter& box() {
+  static const std::unique_ptr<ReconstructionFilter> filter = make_filter("box");
+  return *filter;
+}
+
+SplatTargets::Film film_of(const scene::Camera& camera, const ReconstructionFilter& filter) {
+  const auto pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  return {scene::FilmMap(camera), camera.width, camera.height,
+          std::vector<std::uint32_t>(pixels, SplatTargets::Film::none), filter};
+}
+
+}  // namespace
 
 SplatTargets::SplatTargets(const scene::Scene& scene, std::span<const measure::Measurement> asked) {
-  std::map<std::uint32_t, std::size_t> film_of;  // by camera
+  std::map<std::uint32_t, std::size_t> of_camera;
   for (std::uint32_t m = 0; m < asked.size(); ++m) {
     if (const auto* point = std::get_if<measure::PointIrradiance>(&asked[m]))
       points_.push_back({m, point->position, point->normal});
     const auto* pixel = std::get_if<measure::PixelRadiance>(&asked[m]);
     if (!pixel) continue;
     const scene::Camera& camera = scene.camera(pixel->camera);
-    const auto [at, is_new] = film_of.try_emplace(pixel->camera.value, films_.size());
-    if (is_new)
-      films_.push_back(
-          {scene::FilmMap(camera), camera.width, camera.height,
-           std::vector<std::uint32_t>(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
-                                      Film::none)});
+    const auto [at, is_new] = of_camera.try_emplace(pixel->camera.value, films_.size());
+    if (is_new) films_.push_back(film_of(camera, box()));
     Film& film = films_[at->second];
     std::uint32_t& of_pixel =
         film.measurement[static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(film.width) +
@@ -30,10 +40,9 @@ SplatTargets::SplatTargets(const scene::Scene& scene, std::span<const measure::M
   }
 }
 
-std::uint32_t SplatTargets::Film::at(const Vec2& film) const {
-  const double x = std::floor(film.x()), y = std::floor(film.y());
-  if (!(x >= 0 && y >= 0 && x < width && y < height)) return none;
-  return measurement[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+SplatTargets::SplatTargets(const scene::Camera& camera, const ReconstructionFilter& filter) {
+  films_.push_back(film_of(camera, filter));
+  std::iota(films_[0].measurement.begin(), films_[0].measurement.end(), 0u);
 }
 
 }  // namespace interflect::montecarlo

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "measure/measurement.h"
+#include "montecarlo/film/spread.h"
 #include "scene/film_map.h"
 #include "scene/scene.h"
 
@@ -16,6 +17,8 @@ class SplatTargets {
  public:
   /// @pre  require_measurable of all.  The scene must outlive it.
   SplatTargets(const scene::Scene& scene, std::span<const measure::Measurement> asked);
+  /// All pixels of a picture: measurement y * width + x is what the filter makes of the film there.  Both must outlive it.
+  SplatTargets(const scene::Camera& camera, const ReconstructionFilter& filter);
 
   struct Point {
     std::uint32_t measurement;
@@ -26,8 +29,21 @@ class SplatTargets {
     scene::FilmMap map;
     int width, height;
     std::vector<std::uint32_t> measurement;
+    const ReconstructionFilter& filter;
     static constexpr std::uint32_t none = ~0u;
-    std::uint32_t at(const Vec2& film) const;
+    /// visit(measurement, how much of it) of all that count a point of the film.
+    template <class Visit>
+    void visit(const Vec2& film, const Visit& visit) const {
+      spread(film, width, height, filter, [&](int x, int y, double h) {
+        const std::uint32_t m = measurement[static_cast<std::size_t>(y * width + x)];
+        if (m != none) visit(m, h);
+      });
+    }
+    bool counts(const Vec2& film) const {
+      bool any = false;
+      visit(film, [&](std::uint32_t, double) { any = true; });
+      return any;
+    }
   };
   std::span<const Point> points() const { return points_; }
   std::span<const Film> films() const { return films_; }

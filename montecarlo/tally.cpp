@@ -1,5 +1,6 @@
 #include "montecarlo/tally.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/format.h"
@@ -12,13 +13,20 @@ void Tally::add(const Spectrum& sample, double weighed_sample, std::uint64_t ind
   if (!fine && not_finite++ == 0) first_not_finite = index;
   moments.add(fine ? sample : Spectrum::zero());
   weighed.add(fine ? weighed_sample : 0);
+  if (fine) largest_sample = std::max(largest_sample, std::abs(weighed_sample));
 }
 
 void Tally::merge(const Tally& other) {
   moments.merge(other.moments);
   weighed.merge(other.weighed);
+  largest_sample = std::max(largest_sample, other.largest_sample);
   if (not_finite == 0) first_not_finite = other.first_not_finite;
   not_finite += other.not_finite;
+}
+
+double Tally::share_of_one() const {
+  const double all = std::abs(weighed.mean()) * static_cast<double>(weighed.count());
+  return all > 0 ? largest_sample / all : 0;
 }
 
 Estimate Tally::estimate(const Spectrum& largest) const {

@@ -11,11 +11,15 @@ namespace interflect::montecarlo {
 struct Tally {
   core::Moments moments;        ///< channel by channel
   core::ScalarMoments weighed;  ///< of the scene's weighted value: the channels of a path are correlated
+  double largest_sample = 0;    ///< |weighed| of the largest sample
   std::uint64_t not_finite = 0, first_not_finite = 0;  ///< how many, and the index of one of them
 
   /// @param weighed_sample  the scene's weighted value of the sample
   void add(const Spectrum& sample, double weighed_sample, std::uint64_t index);
   void merge(const Tally& other);
+
+  /// Of what all samples found together, in the weighted value; 0 where that is nothing.
+  double share_of_one() const;
 
   /// The unbiased estimate.  Where every sample of a channel scored zero although lights emit in it, the standard error
   /// is not 0 but the "rule of three": 3 w / n, the 95 % upper bound of a mean whose rare samples are of size w =

@@ -14,14 +14,23 @@ using core::triangle_point;
 /// Of `cosine_hemisphere` [1/sr].
 inline double cosine_hemisphere_pdf_solid_angle(double cos_theta) { return cos_theta > 0 ? cos_theta * inv_pi : 0; }
 
+/// Of a convex quad's area the part that the first of its two triangles has; 1 of a triangle.
+inline double first_triangle_share(const scene::SurfacePatch& patch) {
+  if (patch.corners == 3) return 1;
+  const auto& [a, b, c, d] = patch.corner;
+  const double first = (b - a).cross(c - a).norm(), second = (c - a).cross(d - a).norm();
+  return first / (first + second);
+}
+
 /// A point of a triangle or convex quad with pdf_area = 1 / patch.area: the quad's two triangles share u by their
 /// areas.
-inline Vec3 patch_point(const scene::SurfacePatch& patch, double u, double v) {
+/// @param part  first_triangle_share, for who asks often
+inline Vec3 patch_point(const scene::SurfacePatch& patch, double part, double u, double v) {
   const auto& [a, b, c, d] = patch.corner;
-  if (patch.corners == 3) return triangle_point(a, b, c, u, v);
-  const double first = (b - a).cross(c - a).norm(), second = (c - a).cross(d - a).norm(),
-               part = first / (first + second);
   return u < part ? triangle_point(a, b, c, u / part, v) : triangle_point(a, c, d, (u - part) / (1 - part), v);
+}
+inline Vec3 patch_point(const scene::SurfacePatch& patch, double u, double v) {
+  return patch_point(patch, first_triangle_share(patch), u, v);
 }
 
 }  // namespace interflect::montecarlo

@@ -115,6 +115,7 @@ class EmbreeCaster final : public RayCaster {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit8 query;
+    set_alike(query.ray);
     in_packets(
         rays, query, [&](const int* valid) { rtcIntersect8(valid, bvh_.get(), &context, &query); },
         [&](std::size_t k, std::size_t lane) { hits[k] = hit_of(query.hit, lane, rays[k]); });
@@ -148,8 +149,8 @@ class EmbreeCaster final : public RayCaster {
     if (blocked.size() < segments.size()) throw core::PreconditionError("occluded: one answer per segment expected");
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     RTCRay8 query;
+    set_alike(query);
     in_packets(
         segments, query, [&](const int* valid) { rtcOccluded8(valid, bvh_.get(), &context, &query); },
         [&](std::size_t k, std::size_t lane) { blocked[k] = query.tfar[lane] < 0; });
@@ -214,10 +215,16 @@ class EmbreeCaster final : public RayCaster {
     query.dir_x[lane] = static_cast<float>(direction.x());
     query.dir_y[lane] = static_cast<float>(direction.y());
     query.dir_z[lane] = static_cast<float>(direction.z());
-    query.tnear[lane] = query.time[lane] = 0;
     query.tfar[lane] = tfar;
-    query.mask[lane] = every_mask;
-    query.id[lane] = query.flags[lane] = 0;
+  }
+
+  /// What all packets have, and Embree leaves as it is.
+  static void set_alike(RTCRay8& query) {
+    std::ranges::fill(query.tnear, 0.0F);
+    std::ranges::fill(query.time, 0.0F);
+    std::ranges::fill(query.mask, every_mask);
+    std::ranges::fill(query.id, 0u);
+    std::ranges::fill(query.flags, 0u);
   }
 
   /// Along the ray to the facet's plane, in double precision but where the ray grazes it: single precision does not

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/batch_means.h"
 #include "validation/judged.h"
 
 namespace interflect::validation {
@@ -37,6 +38,29 @@ Agreement agreement(const scene::Scene& scene, std::span<const Estimate> a, std:
       if (!(z <= z_max)) ++found.beyond;
       if (!(z <= found.largest_z)) found.largest_z = z, found.worst = m;
     }
+  return found;
+}
+
+MeanAgreement mean_agreement(const scene::Scene& scene, const Replicated& a, const Replicated& b, double level) {
+  MeanAgreement found;
+  if (a.again.size() < 2) return found;
+  const Reading reading = readings_of(scene).front();
+  const int replications = static_cast<int>(a.again.size());
+  core::BatchMeans apart(replications);
+  double bounds = 0;
+  for (std::size_t m = 0; m < a.found.size(); ++m) {
+    const double noise = std::hypot(reading.noise(a.found[m]).standard_error, reading.noise(b.found[m]).standard_error);
+    if (!(noise > 0 && std::isfinite(noise))) continue;  // each z is judged there, and says what it is
+    for (int k = 0; k < replications; ++k) {
+      const Estimate &of_a = a.again[static_cast<std::size_t>(k)][m], &of_b = b.again[static_cast<std::size_t>(k)][m];
+      apart.add(k, (reading.value(of_a.value) - reading.value(of_b.value)) / noise);
+    }
+    bounds += (reading.error(a.found[m].error_bound) + reading.error(b.found[m].error_bound)) / noise;
+  }
+  if (apart.batch(0).count() == 0) return found;
+  found.judged = true;
+  found.mean = apart.mean();
+  found.allowed = apart.half_width(1 - level) + bounds / static_cast<double>(apart.batch(0).count());
   return found;
 }
 

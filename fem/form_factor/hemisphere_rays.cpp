@@ -97,8 +97,8 @@ PairCounts HemisphereRays::exchange(const ElementBlock& rows, const ElementBlock
     const double area = shapes_[a].area;
     sink.weigh_row(a, static_cast<double>(row.rays()) / area);
     for (Index b = columns.first; b < columns.first + columns.count; ++b) {
-      if (b == a) continue;
-      if (facing_away(shapes_, a, b)) {
+      if (b == a && !context_.by_mirrors) continue;
+      if (!context_.by_mirrors && facing_away(shapes_, a, b)) {
         ++counts.facing_away;
         continue;
       }

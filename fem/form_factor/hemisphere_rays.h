@@ -17,7 +17,8 @@ namespace interflect::fem {
 /// with the binomial standard error of counted_exchange.h.  Points are a scrambled and shifted Sobol sequence on a, so
 /// that they are evenly spread; directions are independent, and so the truth is no worse than binomial and, for small
 /// F, no better.  What hits a black back, a side without elements, or nothing, counts for nobody.  Pairs that
-/// orientation proves dark get no entry; others do, hit or not.
+/// orientation proves dark get no entry; others do, hit or not.  By way of mirrors (FormFactorContext::by_mirrors) none
+/// is dark, and an element may see itself.
 ///
 /// Samples: n rays a row as asked for; or 1 024 again and again until the row's error,
 ///

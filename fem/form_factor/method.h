@@ -84,6 +84,8 @@ struct FormFactorContext {
   std::uint64_t samples =
       0;  ///< of a Monte Carlo method: a pair, a row, or in all; 0: as many as the tolerance asks for
   double visibility_error = 0;  ///< standard error of a pair's visible part that rays are added up to; 0: none are
+  /// Rays are those of specular/light_caster.h: by mirrors elements may see what is behind them, and themselves.
+  bool by_mirrors = false;
 };
 
 /// @throws core::InputError with the names known

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t walk_block = 2;  ///< of the eye's walk, after its place
 
 SamplingSettings sampling_of(const BidirectionalTracerSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples};
+  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
 }
 
 constexpr const char* who = "bidirectional path tracer";
@@ -98,7 +98,7 @@ std::vector<Tally> tallies_of(const BidirectionalFilm& film, std::uint64_t count
   core::Progress::Stage stage(run.progress, stage_name, count);
   std::vector<Tally> tallies(film.pixels());
   for (std::uint64_t k = 0; k < count && !run.stop.stop_requested();) {
-    const std::uint64_t end = std::min(count, k + film.sweeps_at_once());
+    const std::uint64_t end = std::min(count, k + film.at_once());
     const std::vector<Spectrum> samples = film.samples(k, end, run);
     for (std::size_t s = 0; s < samples.size(); ++s)
       tallies[s % film.pixels()].add(samples[s], scene.weigh(samples[s]), k + s / film.pixels());
@@ -142,6 +142,7 @@ void answer_film(const BidirectionalEstimator& walks, scene::CameraId camera, co
     if (tallies[p].moments.count() < 2) run.throw_if_stopped(what);
     for (const std::size_t m : asked.measurements[p]) {
       warn_of_bugs(tallies[p], what, m, seed);
+      if (settings.report != nullptr) settings.report->add(m, tallies[p]);
       estimates[m] = tallies[p].estimate(inv_pi * walks.largest_score());
     }
   }
@@ -170,7 +171,11 @@ std::vector<Estimate> BidirectionalTracer::answer(const scene::Scene& scene,
   for (std::size_t m = 0; m < asked.size(); ++m)
     if (!std::holds_alternative<measure::PixelRadiance>(asked[m])) joined.add(asked[m]), of.push_back(m);
   if (!of.empty()) {
-    const auto found = sampled_answers(joined, sampling_of(settings_), walks.lights().flux(), run);
+    SamplingSettings sampling = sampling_of(settings_);
+    SampleReport report;
+    sampling.report = &report;
+    const auto found = sampled_answers(joined, sampling, walks.lights().flux(), run);
+    if (settings_.report != nullptr) settings_.report->add(report, of);
     for (std::size_t k = 0; k < of.size(); ++k) estimates[of[k]] = found[k];
   }
   for (const auto& [camera, pixels] : pixels_of(scene, asked))

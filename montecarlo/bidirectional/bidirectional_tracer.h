@@ -11,6 +11,8 @@
 
 namespace interflect::montecarlo {
 
+struct SampleReport;
+
 struct BidirectionalTracerSettings {
   std::uint64_t samples = 0;  ///< a measurement; 0: as many as `target` asks for
   double target = 0.01;       ///< relative standard error of every measurement's weighted value
@@ -19,6 +21,7 @@ struct BidirectionalTracerSettings {
   std::string intersector = "embree";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
   std::optional<BidirectionalStrategy> only{};               ///< one strategy alone, unweighed
+  SampleReport* report = nullptr;  ///< of the samples behind the answers, to be added to; null: none
 };
 
 /// Bidirectional path tracing (BidirectionalEstimator) of all that can be asked.

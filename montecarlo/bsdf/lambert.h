@@ -5,16 +5,19 @@
 
 namespace interflect::montecarlo {
 
-/// Diffuse: f = rho / pi on the side where light arrives.
+/// Diffuse: f = rho / pi on the side where light arrives, or on the front alone, whose back is black.
 class Lambert final : public Bsdf {
  public:
-  explicit Lambert(const Spectrum& reflectance) : reflectance_(reflectance), f_(reflectance * inv_pi) {}
+  enum class On : std::uint8_t { both_sides, front };
+  explicit Lambert(const Spectrum& reflectance, On on = On::both_sides)
+      : reflectance_(reflectance), f_(reflectance * inv_pi), front_only_(on == On::front) {}
 
-  Spectrum f(const Vec3& from, const Vec3& to) const override { return same_side(from, to) ? f_ : Spectrum::zero(); }
+  Spectrum f(const Vec3& from, const Vec3& to) const override { return reflects(from, to) ? f_ : Spectrum::zero(); }
   double pdf_solid_angle(const Vec3& known, const Vec3& drawn) const override {
-    return same_side(known, drawn) ? cosine_hemisphere_pdf_solid_angle(std::abs(drawn.z())) : 0;
+    return reflects(known, drawn) ? cosine_hemisphere_pdf_solid_angle(std::abs(drawn.z())) : 0;
   }
   std::optional<Scattered> sample(const Vec3& known, const Vec3& u, Walk) const override {
+    if (front_only_ && !(known.z() > 0)) return std::nullopt;
     Vec3 way = cosine_hemisphere(u[1], u[2]);
     const double pdf = cosine_hemisphere_pdf_solid_angle(way.z());
     if (known.z() < 0) way.z() = -way.z();
@@ -22,7 +25,10 @@ class Lambert final : public Bsdf {
   }
 
  private:
+  bool reflects(const Vec3& a, const Vec3& b) const { return same_side(a, b) && (!front_only_ || a.z() > 0); }
+
   Spectrum reflectance_, f_;
+  bool front_only_;
 };
 
 }  // namespace interflect::montecarlo

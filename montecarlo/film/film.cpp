@@ -45,11 +45,12 @@ class RowReader {
 
 }  // namespace
 
-Film::Film(std::size_t pixels, int channels, int batches)
+Film::Film(std::size_t pixels, int channels, int batches, bool leaves_out)
     : channels_(channels),
       batches_(batches),
       tallies_(pixels),
-      of_batches_(pixels * static_cast<std::size_t>(batches)) {
+      of_batches_(pixels * static_cast<std::size_t>(batches)),
+      left_out_(leaves_out ? pixels : 0) {
   if (batches != 0 && batches < 16) throw core::PreconditionError("film: at least 16 batches expected");
 }
 
@@ -68,13 +69,15 @@ std::uint64_t Film::fewest_samples() const {
   return std::min_element(tallies_.begin(), tallies_.end(), fewer)->moments.count();
 }
 
-std::uint64_t Film::not_finite() const {
-  std::uint64_t sum = 0;
-  for (const Tally& tally : tallies_) sum += tally.not_finite;
-  return sum;
+Estimate Film::estimate(std::size_t pixel, const Spectrum& largest) const {
+  Estimate found = noise_of(pixel, largest);
+  if (left_out_.empty() || found.claim == Claim::none) return found;
+  found.error_bound = left_out_[pixel] / static_cast<double>(samples(pixel));
+  found.claim = Claim::estimated;
+  return found;
 }
 
-Estimate Film::estimate(std::size_t pixel, const Spectrum& largest) const {
+Estimate Film::noise_of(std::size_t pixel, const Spectrum& largest) const {
   if (batches_ == 0) return tallies_[pixel].estimate(largest);
   Tally means = tallies_[pixel];
   means.moments = {};
@@ -89,7 +92,9 @@ Estimate Film::estimate(std::size_t pixel, const Spectrum& largest) const {
   return means.estimate(largest / in_batch);
 }
 
-Index Film::state_columns() const { return 5 + 2 * channels_ + batches_ * (channels_ + 1); }
+Index Film::state_columns() const {
+  return 6 + 2 * channels_ + batches_ * (channels_ + 1) + (left_out_.empty() ? 0 : channels_);
+}
 
 FilmState Film::state() const {
   FilmState values(static_cast<Index>(pixels()), state_columns());
@@ -101,6 +106,7 @@ FilmState Film::state() const {
     put(tally.moments.squared_deviations(), channels_);
     put(tally.weighed.mean());
     put(tally.weighed.squared_deviations());
+    put(tally.largest_sample);
     put(tally.not_finite);
     put(tally.first_not_finite);
     for (int b = 0; b < batches_; ++b) {
@@ -108,6 +114,7 @@ FilmState Film::state() const {
       put(batch.sum, channels_);
       put(batch.weighed);
     }
+    if (!left_out_.empty()) put(left_out_[p], channels_);
   }
   return values;
 }
@@ -125,6 +132,7 @@ void Film::restore(const FilmState& state) {
     tally.moments = {n, mean, squares};
     const double weighed = take.number();
     tally.weighed = {n, weighed, take.number()};
+    tally.largest_sample = take.number();
     tally.not_finite = take.count();
     tally.first_not_finite = take.count();
     for (int b = 0; b < batches_; ++b) {
@@ -132,6 +140,7 @@ void Film::restore(const FilmState& state) {
       batch.sum = take.spectrum(channels_);
       batch.weighed = take.number();
     }
+    if (!left_out_.empty()) left_out_[p] = take.spectrum(channels_);
   }
 }
 

@@ -135,8 +135,8 @@ struct LightTree::Build {
     const LightExtent e = all(of);
     const auto at = static_cast<std::uint32_t>(tree.nodes_.size());
     const double diagonal = e.box.diagonal().squaredNorm();
-    tree.nodes_.push_back({e.box.center(), e.axis, diagonal / 4, e.cos_normals, sine_of(e.cos_normals), e.cos_emission,
-                           e.intensity, e.by_cosine, 0, of[0]});
+    tree.nodes_.push_back({e.box.center(), e.axis, std::sqrt(diagonal / 4), diagonal / 4, e.cos_normals,
+                           sine_of(e.cos_normals), e.cos_emission, e.intensity, e.by_cosine, 0, of[0]});
     tree.depth_ = std::max(tree.depth_, depth);
     if (of.size() == 1) {
       tree.way_to_[of[0]] = way;
@@ -158,31 +158,55 @@ LightTree::LightTree(std::span<const LightExtent> lights) : way_to_(lights.size(
   Build{lights, *this}.add(order, 0, 0);
 }
 
-double LightTree::importance(const Node& node, const Place& at) {
-  const Vec3 way = at.position - node.centre;
-  const double square = way.squaredNorm(), over = node.intensity / std::max({square, node.half2, 0x1p-900});
-  if (!(square > node.half2)) return over;  // in its midst: any way is possible
-  const double d = std::sqrt(square), sine_u = std::sqrt(node.half2) / d;
-  const Angle spread{std::sqrt(1 - sine_u * sine_u), sine_u};
+/// A node as it is seen from a place.
+struct LightTree::Seen {
+  bool within;            ///< its sphere: all ways are possible
+  double over;            ///< I / max(d², h²)
+  Angle spread;           ///< that its sphere fills
+  Angle leaves, arrives;  ///< of the way between the centres with its axis, and with the normal of the place
+};
+
+double LightTree::importance(const Node& node, const Place& at, const Seen& seen) {
+  if (seen.within) return seen.over;
   double cosines = 1;
   if (node.cos_normals > -1) {
-    const double cosine = std::clamp(node.axis.dot(way) / d, -1., 1.);
-    const Angle beyond = Angle{cosine, sine_of(cosine)}.less({node.cos_normals, node.sin_normals}).less(spread);
+    const Angle beyond = seen.leaves.less({node.cos_normals, node.sin_normals}).less(seen.spread);
     if (beyond.cosine < node.cos_emission - rounding) return 0;
     if (node.by_cosine) cosines = std::max(beyond.cosine, least_cosine);
   }
   if (!at.normal.isZero(0)) {
-    const double cosine = std::clamp(-at.normal.dot(way) / d, -1., 1.);
-    const Angle least = Angle{cosine, sine_of(cosine)}.less(spread);
+    const Angle least = seen.arrives.less(seen.spread);
     if (least.cosine < -rounding) return 0;
     cosines *= std::max(least.cosine, least_cosine);
   }
-  return over * cosines;
+  return seen.over * cosines;
+}
+
+/// Of both at once, since roots and quotients are what takes its time.
+std::array<double, 2> LightTree::importances(const Node& a, const Node& b, const Place& at) {
+  using Both = Eigen::Array2d;
+  const Vec3 from_a = at.position - a.centre, from_b = at.position - b.centre;
+  const Both square(from_a.squaredNorm(), from_b.squaredNorm()), half2(a.half2, b.half2);
+  const Both over = Both(a.intensity, b.intensity) / square.max(half2).max(0x1p-900);
+  const Both d = square.sqrt(), sine_u = Both(a.half, b.half) / d, cosine_u = (1 - sine_u * sine_u).sqrt();
+  const auto cosine = [&](double of_a, double of_b) -> Both { return (Both(of_a, of_b) / d).max(-1.).min(1.); };
+  const auto sine = [](const Both& c) -> Both { return ((1 - c) * (1 + c)).max(0.).sqrt(); };
+  const Both leaves = cosine(a.axis.dot(from_a), b.axis.dot(from_b)),
+             arrives = cosine(-at.normal.dot(from_a), -at.normal.dot(from_b));
+  const Both sine_leaves = sine(leaves), sine_arrives = sine(arrives);
+  const auto seen = [&](Index k) -> Seen {
+    return {!(square[k] > half2[k]),
+            over[k],
+            {cosine_u[k], sine_u[k]},
+            {leaves[k], sine_leaves[k]},
+            {arrives[k], sine_arrives[k]}};
+  };
+  return {importance(a, at, seen(0)), importance(b, at, seen(1))};
 }
 
 /// Of the two children, what the first is picked with.
 double LightTree::first_share(std::uint32_t node, const Place& at) const {
-  const double first = importance(nodes_[node + 1], at), second = importance(nodes_[nodes_[node].second], at);
+  const auto [first, second] = importances(nodes_[node + 1], nodes_[nodes_[node].second], at);
   if (!(first + second > 0)) return .5;  // where none gives anything, any will do
   const double share = first / (first + second);
   return first > 0 && second > 0 ? std::clamp(share, least_share, 1 - least_share) : share;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,14 +39,16 @@ class LightTree {
  private:
   struct Node {
     Vec3 centre, axis;
-    double half2;  ///< square of half the box's diagonal
+    double half, half2;  ///< of the box's diagonal half, and its square
     double cos_normals, sin_normals, cos_emission, intensity;
     bool by_cosine;
     std::uint32_t second = 0;  ///< child; the first follows its parent; 0: a leaf
     std::uint32_t light = 0;   ///< of a leaf
   };
   struct Build;
-  static double importance(const Node& node, const Place& at);
+  struct Seen;
+  static double importance(const Node& node, const Place& at, const Seen& seen);
+  static std::array<double, 2> importances(const Node& a, const Node& b, const Place& at);
   double first_share(std::uint32_t node, const Place& at) const;
 
   std::vector<Node> nodes_;

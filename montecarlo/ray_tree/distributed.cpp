@@ -3,10 +3,13 @@
 #include <vector>
 
 #include "montecarlo/bsdf/lambert.h"
+#include "montecarlo/film/filtered.h"
 #include "montecarlo/measurable.h"
 #include "montecarlo/path_letters.h"
+#include "montecarlo/pixel_exposure.h"
 #include "montecarlo/ray_tree/ray_tree.h"
 #include "montecarlo/receiver_sampler.h"
+#include "montecarlo/render.h"
 #include "montecarlo/roulette.h"
 #include "montecarlo/sampling.h"
 #include "montecarlo/scene_paths.h"
@@ -17,17 +20,18 @@ namespace {
 
 constexpr double always_followed = 0.1;  ///< from this weight on
 /// Dimensions: place or film and lens, then a vertex after the other: light 3, glossy direction 3, survival of up to six
-/// rays.
-constexpr std::uint32_t film_block = 0, lens_block = 1, first_vertex_block = 2, blocks_per_vertex = 6;
+/// rays; of a filter's second point again.
+constexpr std::uint32_t film_block = 0, lens_block = 1, first_vertex_block = 2, blocks_per_vertex = 6,
+                        second_tree_block = 1u << 30;
 
 SamplingSettings sampling_of(const DistributedSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples};
+  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
 }
 
 class Trees final : public SampledMeasurements {
  public:
   Trees(const scene::Scene& scene, const raycast::RayCaster& caster, const measure::PathClasses& paths,
-        std::span<const measure::Measurement> asked)
+        std::span<const measure::Measurement> asked = {})
       : tree_(scene, caster, paths) {
     for (const measure::Measurement& each : asked) measured_.emplace_back(scene, each);
   }
@@ -47,13 +51,29 @@ class Trees final : public SampledMeasurements {
       samples[k] = sample(measured_[m], numbers);
     }
   }
+  /// One of the pixel with that middle.
+  Spectrum of_pixel(const scene::FilmMap& film, const ReconstructionFilter& filter, const Vec2& middle,
+                    core::RandomNumbers& numbers) const {
+    numbers.jump(film_block);
+    const double a = numbers.next(), b = numbers.next();
+    numbers.jump(lens_block);
+    const double r = numbers.next(), turn = numbers.next();
+    return filtered(filter, middle, a, b, [&](const Vec2& at, bool second) {
+      const auto ray = film.ray(at, scene::uniform_disk(r, turn));
+      if (!ray) return Spectrum::zero();
+      Branch root;
+      root.ray = {ray->origin, ray->direction};
+      root.letters = tree_.at_eye();
+      return seen(root, numbers, second ? second_tree_block : first_vertex_block);
+    });
+  }
 
  private:
   struct Measured {
     Measured(const scene::Scene& scene, const measure::Measurement& asked) : scale(scale_of(asked)) {
       if (const auto* pixel = std::get_if<measure::PixelRadiance>(&asked)) {
         film.emplace(scene.camera(pixel->camera));
-        corner = Vec2(pixel->x, pixel->y);
+        middle = Vec2(pixel->x + .5, pixel->y + .5);
       } else {
         place.emplace(asked);
       }
@@ -61,7 +81,7 @@ class Trees final : public SampledMeasurements {
     double scale;
     std::optional<ReceiverSampler> place;
     std::optional<scene::FilmMap> film;
-    Vec2 corner = Vec2::Zero();
+    Vec2 middle = Vec2::Zero();
   };
   struct Branch {
     raycast::Ray ray{};
@@ -79,22 +99,13 @@ class Trees final : public SampledMeasurements {
       return of.scale * pi *
              lit({at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_}, tree_.at_eye(), false, numbers);
     }
-    numbers.jump(film_block);
-    const double a = numbers.next(), b = numbers.next();
-    numbers.jump(lens_block);
-    const double r = numbers.next(), turn = numbers.next();
-    const auto ray = of.film->ray(of.corner + Vec2(a, b), scene::uniform_disk(r, turn));
-    if (!ray) return Spectrum::zero();
-    Branch root;
-    root.ray = {ray->origin, ray->direction};
-    root.letters = tree_.at_eye();
-    return seen(root, numbers);
+    return of_pixel(*of.film, *box_, of.middle, numbers);
   }
 
-  Spectrum seen(const Branch& root, core::RandomNumbers& numbers) const {
+  Spectrum seen(const Branch& root, core::RandomNumbers& numbers, std::uint32_t block) const {
     Spectrum found{};
     std::vector<Branch> branches{root};
-    for (std::uint32_t block = first_vertex_block; !branches.empty(); block += blocks_per_vertex) {
+    for (; !branches.empty(); block += blocks_per_vertex) {
       const Branch branch = branches.back();
       branches.pop_back();
       const RayTree::Met met = tree_.met(branch.ray);
@@ -155,7 +166,37 @@ class Trees final : public SampledMeasurements {
 
   RayTree tree_;
   std::vector<Measured> measured_;
+  std::unique_ptr<ReconstructionFilter> box_ = make_filter("box");
   Lambert receiver_{Spectrum(1)};
+};
+
+class DistributedExposure final : public PixelExposure {
+ public:
+  DistributedExposure(const scene::Scene& scene, const scene::Camera& camera, const RenderSettings& settings,
+                      const ReconstructionFilter& filter, const raycast::RayCaster& caster, Run& run)
+      : PixelExposure(1, run),
+        camera_(camera),
+        map_(camera),
+        filter_(filter),
+        trees_(scene, caster, settings.paths),
+        seed_(core::derived_seed(run.seed, "distributed ray tracer pixels")) {}
+
+  Spectrum largest_score() const override { return trees_.largest_score(); }
+
+ private:
+  void expose(Film& film, std::size_t pixel, std::uint64_t begin, std::uint64_t end) override {
+    for (std::uint64_t k = begin; k < end; ++k) {
+      core::RandomNumbers numbers(seed_, static_cast<std::uint32_t>(pixel), k);
+      const Spectrum sample = trees_.of_pixel(map_, filter_, middle_of(camera_, pixel), numbers);
+      film.add(pixel, sample, trees_.scene().weigh(sample));
+    }
+  }
+
+  const scene::Camera& camera_;
+  scene::FilmMap map_;
+  const ReconstructionFilter& filter_;
+  Trees trees_;
+  std::uint64_t seed_;
 };
 
 }  // namespace
@@ -179,6 +220,12 @@ std::vector<Estimate> Distributed::answer(const scene::Scene& scene, std::span<c
   if (trees.dark())
     return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
   return sampled_answers(trees, sampling_of(settings_), trees.lights().flux(), run);
+}
+
+std::unique_ptr<Exposure> distributed_exposure(const scene::Scene& scene, const scene::Camera& camera,
+                                               const RenderSettings& settings, const ReconstructionFilter& filter,
+                                               const raycast::RayCaster& caster, Run& run) {
+  return std::make_unique<DistributedExposure>(scene, camera, settings, filter, caster, run);
 }
 
 }  // namespace interflect::montecarlo

@@ -4,9 +4,11 @@
 #include <string>
 
 #include "measure/method.h"
-#include "raycast/ray_caster.h"
+#include "montecarlo/exposure.h"
 
 namespace interflect::montecarlo {
+
+struct SampleReport;
 
 struct DistributedSettings {
   std::uint64_t samples = 0;  ///< trees a measurement; 0: as many as `target` asks for
@@ -15,6 +17,7 @@ struct DistributedSettings {
   std::uint64_t max_samples = 1u << 26;
   std::string intersector = "embree";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that are asked for: it has no others than its own
+  SampleReport* report = nullptr;  ///< of the samples behind the answers, to be added to; null: none
 };
 
 /// Distributed ray tracing [Cook, Porter, Carpenter 1984]: Whitted's tree, with all that is not a point drawn at random:
@@ -42,5 +45,8 @@ class Distributed final : public measure::Method {
  private:
   DistributedSettings settings_;
 };
+
+/// A whole tree is a sample of a pixel.
+MakeExposure distributed_exposure;
 
 }  // namespace interflect::montecarlo

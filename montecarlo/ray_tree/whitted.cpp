@@ -1,15 +1,19 @@
 #include "montecarlo/ray_tree/whitted.h"
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "core/sequence/shifted_sobol.h"
 #include "montecarlo/bsdf/lambert.h"
+#include "montecarlo/film/filtered.h"
 #include "montecarlo/measurable.h"
 #include "montecarlo/path_letters.h"
+#include "montecarlo/pixel_exposure.h"
 #include "montecarlo/ray_tree/ray_tree.h"
 #include "montecarlo/receiver_sampler.h"
+#include "montecarlo/render.h"
 #include "montecarlo/sampling.h"
 #include "montecarlo/scene_paths.h"
 #include "scene/film_map.h"
@@ -17,7 +21,7 @@
 namespace interflect::montecarlo {
 namespace {
 
-constexpr std::size_t copies = 16;
+constexpr std::size_t copies = sequence_batches;
 constexpr std::uint64_t first_points = 64 * copies;
 constexpr std::size_t most_rays = 1 << 12;  ///< of a tree: between mirrors that lose nothing it would not end
 
@@ -38,12 +42,25 @@ struct Grown {
   Spectrum found{};
   Spectrum left{};       ///< weights of rays that were not followed
   Spectrum brightest{};  ///< that any of its rays saw
+  std::uint64_t not_finite = 0;
+
+  /// One that is no number counts as nothing, and is counted.
+  void add(const Grown& tree) {
+    if (tree.found.is_finite())
+      found += tree.found;
+    else
+      ++not_finite;
+    left += tree.left;
+    brightest = max(brightest, tree.brightest);
+  }
 };
 
 class Trees {
  public:
-  Trees(const scene::Scene& scene, const raycast::RayCaster& caster, const WhittedSettings& settings)
-      : tree_(scene, caster, settings.paths), least_weight_(settings.least_weight) {
+  /// @param least_weight  of a ray that is followed
+  Trees(const scene::Scene& scene, const raycast::RayCaster& caster, const measure::PathClasses& paths,
+        double least_weight)
+      : tree_(scene, caster, paths), least_weight_(least_weight) {
     for (std::uint32_t l = 0; l < tree_.lights().first_infinite(); ++l)
       if (!tree_.lights()[l].is_delta())
         brightest_lamp_ = max(brightest_lamp_, inv_pi * tree_.lights()[l].largest_find(0).pi_radiance);
@@ -150,6 +167,12 @@ class Quadrature {
     return largest + left * max(brightest, trees_.brightest_lamp()) / static_cast<double>(points());
   }
 
+  std::uint64_t not_finite() const {
+    std::uint64_t sum = 0;
+    for (const Grown& copy : found_) sum += copy.not_finite;
+    return sum;
+  }
+
   void refine(std::uint64_t points) {
     const std::uint64_t each = (points + copies - 1) / copies;
     std::vector<double> u(dimensions * (each - each_));
@@ -164,12 +187,9 @@ class Quadrature {
   void add(const double* at, Grown& copy) const {
     const double a = at[0], b = at[1], u = at[2], v = at[3];
     if (place_) {
-      copy.found += scale_ * trees_.arriving(place_->at(a, b), u, v);
+      copy.add({scale_ * trees_.arriving(place_->at(a, b), u, v)});
     } else if (const auto ray = film_->ray(corner_ + Vec2(a, b), scene::uniform_disk(at[4], at[5]))) {
-      const Grown tree = trees_.seen(*ray, u, v);
-      copy.found += tree.found;
-      copy.left += tree.left;
-      copy.brightest = max(copy.brightest, tree.brightest);
+      copy.add(trees_.seen(*ray, u, v));
     }
   }
 
@@ -183,7 +203,52 @@ class Quadrature {
   std::uint64_t each_ = 0;  ///< points of a copy
 };
 
-SamplingSettings sampling_of(const WhittedSettings& s) { return {s.samples, s.target, s.target_floor, s.max_samples}; }
+class WhittedExposure final : public PixelExposure {
+ public:
+  WhittedExposure(const scene::Scene& scene, const scene::Camera& camera, const RenderSettings& settings,
+                  const ReconstructionFilter& filter, const raycast::RayCaster& caster, Run& run)
+      : PixelExposure(copies, run),
+        camera_(camera),
+        map_(camera),
+        filter_(filter),
+        trees_(scene, caster, settings.paths, WhittedSettings{}.least_weight) {}
+
+  Spectrum largest_score() const override { return trees_.tree().lights().largest_find(); }
+
+ private:
+  void expose(Film& film, std::size_t pixel, std::uint64_t begin, std::uint64_t end) override {
+    const std::uint64_t first = begin / copies, rounds = (end - begin) / copies;
+    std::array<std::vector<double>, copies> points;
+    for (std::size_t copy = 0; copy < copies; ++copy) {
+      points[copy].resize(dimensions * rounds);
+      sequences_[copy]->points(first, dimensions, points[copy]);
+    }
+    for (std::uint64_t round = 0; round < rounds; ++round)
+      for (const std::vector<double>& of_copy : points) add(film, pixel, &of_copy[dimensions * round]);
+  }
+
+  void add(Film& film, std::size_t pixel, const double* at) const {
+    Spectrum left_out{};
+    const Spectrum found = filtered(filter_, middle_of(camera_, pixel), at[0], at[1], [&](const Vec2& where, bool) {
+      const auto ray = map_.ray(where, scene::uniform_disk(at[4], at[5]));
+      const Grown tree = ray ? trees_.seen(*ray, at[2], at[3]) : Grown{};
+      left_out += tree.left * max(tree.brightest, trees_.brightest_lamp());
+      return tree.found;
+    });
+    film.add(pixel, found, trees_.tree().scene().weigh(found));
+    film.leave_out(pixel, left_out * (1 + 2 * filter_.negative()));
+  }
+
+  const scene::Camera& camera_;
+  scene::FilmMap map_;
+  const ReconstructionFilter& filter_;
+  Trees trees_;
+  Sequences sequences_ = scrambled_sequences();
+};
+
+SamplingSettings sampling_of(const WhittedSettings& s) {
+  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
+}
 
 Estimate answered(Quadrature& quadrature, const scene::Scene& scene, const Spectrum& largest,
                   const WhittedSettings& settings, const SamplingTarget& target, Run& run) {
@@ -202,6 +267,10 @@ Estimate answered(Quadrature& quadrature, const scene::Scene& scene, const Spect
     if (quadrature.mean()[c] == 0) error[c] += 3 * largest[c] / static_cast<double>(quadrature.points());
   Estimate estimate{quadrature.mean(), Spectrum::zero(), error, Claim::estimated, quadrature.points()};
   estimate.weighed_standard_error = 0;
+  if (quadrature.not_finite() > 0) {
+    estimate.error_bound = Spectrum(std::numeric_limits<double>::infinity());
+    estimate.claim = Claim::none;
+  }
   return estimate;
 }
 
@@ -222,18 +291,28 @@ std::vector<Estimate> Whitted::answer(const scene::Scene& scene, std::span<const
   for (const measure::Measurement& each : asked) require_measurable(scene, each);
   require_found(*this, scene, asked, settings_.paths);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
-  const Trees trees(scene, *caster, settings_);
+  const Trees trees(scene, *caster, settings_.paths, settings_.least_weight);
   const Sequences sequences = scrambled_sequences();
   const SamplingTarget target = target_of(sampling_of(settings_), scene, trees.tree().lights().flux(), first_points);
   std::vector<Estimate> estimates(asked.size());
+  std::vector<std::uint64_t> not_finite(asked.size());
   core::Progress::Stage stage(run.progress, "ray tracing", asked.size());
   run.threads.for_blocks(static_cast<Index>(asked.size()), 1, [&](Index m, Index) {
     Quadrature quadrature(trees, sequences, asked[static_cast<std::size_t>(m)]);
     estimates[static_cast<std::size_t>(m)] =
         answered(quadrature, scene, quadrature.scale() * trees.tree().lights().largest_find(), settings_, target, run);
+    not_finite[static_cast<std::size_t>(m)] = quadrature.not_finite();
     stage.advance();
   });
+  if (settings_.report != nullptr)
+    for (const std::uint64_t of_measurement : not_finite) settings_.report->not_finite += of_measurement;
   return estimates;
+}
+
+std::unique_ptr<Exposure> whitted_exposure(const scene::Scene& scene, const scene::Camera& camera,
+                                           const RenderSettings& settings, const ReconstructionFilter& filter,
+                                           const raycast::RayCaster& caster, Run& run) {
+  return std::make_unique<WhittedExposure>(scene, camera, settings, filter, caster, run);
 }
 
 }  // namespace interflect::montecarlo

@@ -44,6 +44,36 @@ TEST(Program, each_command_has_help_with_an_example) {
   }
 }
 
+/// The words of the example in a command's help, its scene and its results where the test has them.
+std::vector<std::string> example_of(const std::string& help, const std::string& command,
+                                    const TemporaryFolder& folder) {
+  const std::size_t begin = help.find("Example:\n  interflect " + command);
+  std::istringstream words(help.substr(help.find(command, begin)));
+  std::vector<std::string> arguments;
+  std::string line;
+  std::getline(words, line);
+  std::istringstream in_line(line);
+  for (std::string word; in_line >> word;) {
+    if (word.rfind("data/", 0) == 0) word = INTERFLECT_SOURCE_DIR "/" + word;
+    if (!arguments.empty() && arguments.back() == "-o") word = folder / word;
+    arguments.push_back(word);
+  }
+  return arguments;
+}
+
+// Stopped after a second where it takes longer: what is no command line, or has no such scene, ends with 2.
+TEST(Program, examples_in_help_are_command_lines) {
+  for (const char* command : {"solve", "validate", "render", "trace", "compare", "view-factors", "compare-form-factors",
+                              "solvers", "compare-solvers", "shoot", "exchange", "info", "check"}) {
+    const TemporaryFolder folder;
+    std::vector<std::string> example = example_of(interflect({command, "--help"}).out, command, folder);
+    for (const char* more : {"--max-time", "1s"}) example.emplace_back(more);
+    const Outcome outcome = interflect(example);
+    EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << command << ": " << outcome.status << outcome.err;
+    EXPECT_FALSE(contains(outcome.err, "internal error")) << outcome.err;
+  }
+}
+
 // The furnace is a closed box of 1 m x 2 m x 0.5 m, 7 m² in all, that emits 0.5 W/m².
 TEST(Info, prints_areas_box_and_flux) {
   const Outcome info = interflect({"info", shipped_scene("furnace")});

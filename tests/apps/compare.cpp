@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -45,7 +46,7 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
   const TemporaryFolder folder;
   const Outcome outcome =
       interflect({"compare", shipped_scene("cornell_box"), "--integrators", "path,light,bidirectional", "--target",
-                  "5%", "--spp", "2", "-o", folder / "out"});
+                  "10%", "--spp", "2", "-o", folder / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "efficiency") && contains(outcome.out, "path - bidirectional") &&
               contains(outcome.out, "all agree"))
@@ -58,6 +59,11 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
   ASSERT_EQ(said.at("kinds").size(), 3u);  // surfaces, sensors, pixels
   for (const json& kind : said.at("kinds")) {
     EXPECT_EQ(kind.at("pairs").size(), 3u);
+    for (const json& each : kind.at("pairs")) {
+      EXPECT_TRUE(each.at("mean_z_judged"));
+      EXPECT_LE(std::abs(each.at("mean_z").get<double>()), each.at("mean_z_allowed"));
+    }
+    for (const json& each : kind.at("integrators")) EXPECT_EQ(each.at("samples_not_finite"), 0);
     for (const json& each : kind.at("integrators")) EXPECT_GT(each.at("efficiency"), 0);
   }
 }
@@ -66,13 +72,14 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
 TEST(Compare, compares_on_the_paths_that_both_find) {
   const TemporaryFolder folder;
   const Outcome outcome = interflect({"compare", shipped_scene("materials"), "--integrators", "path,light", "--target",
-                                      "20%", "--no-pictures", "--json", "-o", folder / "out"});
+                                      "20%", "--no-pictures", "--replications", "0", "--json", "-o", folder / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const json said = json::parse(outcome.out);
   for (const json& kind : said.at("kinds")) {
     const json& light = kind.at("integrators").at(1);
     EXPECT_EQ(light.at("missed"), kind.at("measured") == "surfaces" ? "" : "ASE");
     EXPECT_TRUE(contains(kind.at("pairs").at(0).at("paths"), ") and (")) << kind;
+    EXPECT_FALSE(kind.at("pairs").at(0).at("mean_z_judged"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "path.png"));
 }
@@ -171,7 +178,7 @@ TEST(Validate, has_no_reference_that_finds_less_than_radiosity) {
         interflect({"validate", shipped_scene("furnace"), "--integrator", integrator, "-o", folder / "out"});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_TRUE(contains(outcome.err, core::format("integrator '%s': an unbiased one expected that finds all that "
-                                                   "radiosity does, LD*E, also ADE",
+                                                   "radiosity does, A(D|S)*E, also ADE",
                                                    integrator)))
         << outcome.err;
     EXPECT_EQ(folder.files(), 0u);

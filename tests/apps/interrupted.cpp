@@ -73,6 +73,52 @@ TEST(Interrupted, a_picture_goes_on_to_the_same_bytes) {
   EXPECT_TRUE(contains(nothing.err, "there is no such checkpoint")) << nothing.err;
 }
 
+/// A lamp over a floor, seen in few pixels.
+constexpr const char* lamp_over_a_floor = R"({
+  "format": "interflect/scene/1", "units": "m", "quantity": "radiometric",
+  "materials": {
+    "grey": { "type": "diffuse", "reflectance": 0.5 },
+    "glow": { "type": "diffuse", "reflectance": 0.2, "exitance": 5 }
+  },
+  "geometry": [
+    { "name": "floor", "material": "grey", "polygon": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]] },
+    { "name": "lamp", "material": "glow", "polygon": [[-1, -1, 2], [-1, 1, 2], [1, 1, 2], [1, -1, 2]] }
+  ],
+  "cameras": [ { "name": "c", "eye": [0, -0.9, 1], "target": [0, 0.1, 0], "fov_y_deg": 60, "size": [24, 20] } ]
+})";
+
+// So by every integrator, on the paths that it finds; and to a target each ends before all samples are there.
+TEST(Interrupted, pictures_by_any_integrator_go_on_and_end_at_a_target) {
+  for (const std::string integrator : {"bidirectional", "light", "distributed", "whitted"}) {
+    const TemporaryFolder folder;
+    const auto scene = folder.write("scene.json", lamp_over_a_floor);
+    const auto trace = [&](const std::string& name, const std::vector<std::string>& more) {
+      std::vector<std::string> arguments = {"trace", scene, "-o", folder / (name + ".exr")};
+      for (const std::string& each : {std::string("--integrator"), integrator, std::string("--paths"),
+                                      std::string("L(D|G)?S*E"), std::string("--json")})
+        arguments.push_back(each);
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return interflect(arguments);
+    };
+    const Outcome stopped = trace("parts", {"--spp", "16000000", "--threads", "2", "--max-time", "1s"});
+    EXPECT_EQ(stopped.status, 1) << integrator << stopped.err;
+    const auto said = nlohmann::json::parse(stopped.out);
+    EXPECT_EQ(said.at("stopped"), true) << integrator;
+    ASSERT_TRUE(std::filesystem::exists(folder / "parts.checkpoint.h5")) << integrator << stopped.err;
+    const auto done = said.at("samples").get<int>();
+    EXPECT_GT(done, 0) << integrator;
+    const std::string whole_count = std::to_string((done / 16 + 2) * 16);
+    const Outcome gone_on = trace("parts", {"--spp", whole_count, "--threads", "8", "--resume"}),
+                  whole = trace("whole", {"--spp", whole_count, "--threads", "2"});
+    EXPECT_EQ(gone_on.status, 0) << integrator << gone_on.err;
+    EXPECT_EQ(whole.status, 0) << integrator << whole.err;
+    EXPECT_TRUE(read_file(folder / "parts.exr") == read_file(folder / "whole.exr")) << integrator;
+    const Outcome to_target = trace("good", {"--spp", "16000000", "--threads", "2", "--target", "20%"});
+    EXPECT_EQ(to_target.status, 0) << integrator << to_target.err;
+    EXPECT_LT(nlohmann::json::parse(to_target.out).at("samples"), 16000) << integrator;
+  }
+}
+
 TEST(Interrupted, time_that_is_over_is_a_stop) {
   const TemporaryFolder folder;
   const Outcome trace = interflect({"trace", shipped_scene("cornell_box"), "--spp", "1000000", "--threads", "2",

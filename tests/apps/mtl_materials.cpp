@@ -37,12 +37,13 @@ TEST(MtlMaterials, are_part_of_what_a_picture_goes_on_from) {
   }
 }
 
-TEST(MtlMaterials, that_are_not_diffuse_are_refused_by_radiosity_by_name) {
+TEST(MtlMaterials, that_radiosity_does_not_know_are_refused_by_name) {
   const TemporaryFolder folder;
-  const std::string scene = floor_of(folder, "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3\n");
-  const Outcome solve = interflect({"solve", scene, "-o", folder / "out"});
-  EXPECT_EQ(solve.status, 2);
-  EXPECT_TRUE(contains(solve.err, "'mirror'")) << solve.err;
+  const Outcome net = interflect({"solve", floor_of(folder, "Kd 0.5\nd 0.5\n"), "-o", folder / "net"});
+  EXPECT_EQ(net.status, 2);
+  EXPECT_TRUE(contains(net.err, "'a' is not all there")) << net.err;
+  const Outcome mirror = interflect({"solve", floor_of(folder, "Ks 0.9 0.9 0.9\nillum 3\n"), "-o", folder / "mirror"});
+  EXPECT_EQ(mirror.status, 0) << mirror.err;
 }
 
 }  // namespace

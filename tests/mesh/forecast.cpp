@@ -76,7 +76,7 @@ TEST(Forecast, knows_the_area_of_all_sides_that_exchange_light) {
                       builder.add_material(material()));
   builder.add_polygon("two", {ring_at(1, {{0, 0, 1}, {1, 0, 1}, {1, 2, 1}, {0, 2, 1}}), {}},
                       builder.add_material(material(scene::Sides::both)));
-  EXPECT_DOUBLE_EQ(active_area(builder.finish()), 6 + 2 * 2);
+  EXPECT_DOUBLE_EQ(meshed_area(builder.finish()), 6 + 2 * 2);
 }
 
 TEST(Forecast, finds_the_edge_for_a_number_for_a_number_of_elements) {

@@ -18,16 +18,7 @@ const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
 TEST(Bidirectional, agrees_with_path_tracing_on_all_that_can_be_asked) {
   for (const double scale : {1e-6, 1.0, 1e6}) {
     const scene::Scene scene = test::furnished(scale);
-    std::vector<measure::Measurement> asked;
-    for (const scene::SurfaceId id : scene.surface_ids()) {
-      const auto patches = measure::patches_of(scene, id, scene::Side::front);
-      asked.push_back(measure::PatchIrradiance{patches[0]});
-      asked.push_back(measure::Flux{patches});
-    }
-    asked.push_back(test::all_fronts(scene));
-    asked.push_back(measure::PointIrradiance{scale * Vec3(.5, 1, .4), Vec3(.6, 0, .8), {}});
-    asked.push_back(measure::PointIrradiance{scale * Vec3(2, 1, 0), z, test::surface_named(scene, "floor")});
-    for (int k = 0; k < 4; ++k) asked.push_back(measure::PixelRadiance{{0}, k + 1, k});
+    const auto asked = test::all_of_furnished(scene, scale);
     const std::uint64_t samples = scale == 1 ? 20'000 : 4'000;
     test::expect_same(BidirectionalTracer({.samples = samples}), PathTracer({.samples = 3 * samples}), scene, asked,
                       .05);
@@ -36,11 +27,7 @@ TEST(Bidirectional, agrees_with_path_tracing_on_all_that_can_be_asked) {
 
 TEST(Bidirectional, agrees_with_path_tracing_on_every_kind_of_light) {
   const scene::Scene scene = test::lit_by_all();
-  std::vector<measure::Measurement> asked{test::all_fronts(scene)};
-  for (const scene::SurfaceId id : scene.surface_ids())
-    asked.push_back(measure::Flux{measure::patches_of(scene, id, scene::Side::front)});
-  asked.push_back(measure::PointIrradiance{Vec3(2, 1, .2), z, {}});
-  asked.push_back(measure::PointIrradiance{Vec3(.5, 1, .3), Vec3(.6, 0, .8), {}});
+  const auto asked = test::all_of_lit(scene);
   test::expect_same(BidirectionalTracer({.samples = 40'000}), PathTracer({.samples = 100'000}), scene, asked, .05);
 }
 

@@ -33,18 +33,7 @@ class EveryIntegrator : public testing::TestWithParam<std::string> {
   std::uint64_t samples(std::uint64_t of_each) const { return GetParam() == "light" ? 8 * of_each : of_each; }
 };
 
-/// Two unit squares that face each other, the lower one bright; a camera between them that sees the whole upper one.
 /// Truths: docs/truths.md, V1, by quadrature to 1e-10.
-scene::Scene squares() {
-  SceneBuilder builder({"grey"});
-  builder.add_polygon("upper", test::parallelogram(z, y, x), builder.add_material(test::diffuse("upper", .5, 0)));
-  builder.add_polygon("lower", test::parallelogram(Vec3::Zero(), x, y),
-                      builder.add_material(test::diffuse("lower", .5, 1)));
-  builder.scene().cameras.push_back(
-      {"c", Vec3(.5, .5, .5), Vec3(.5, .5, 1), x, scene::Projection(scene::Orthographic{1}), 1, 1});
-  return builder.finish();
-}
-
 std::vector<Question> questions_of(const scene::Scene& scene) {
   const double bright = .100947189239, dark = .010218055060, at_quarter = .104998409669;
   const auto lower = measure::patches_of(scene, test::surface_named(scene, "lower"), scene::Side::front);
@@ -57,7 +46,7 @@ std::vector<Question> questions_of(const scene::Scene& scene) {
 // Of 200 seeds, 95 % intervals hold the truth in 181 .. 197 with a probability of .99, of each measurement: of samples so
 // many, and to a target, by pilots that are thrown away.
 TEST_P(EveryIntegrator, holds_the_truth_as_often_as_it_says) {
-  const scene::Scene scene = squares();
+  const scene::Scene scene = test::facing_squares();
   const std::vector<Question> questions = questions_of(scene);
   std::vector<measure::Measurement> asked;
   for (const Question& question : questions) asked.push_back(question.asked);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/moments.h"
 #include "tests/montecarlo/rooms.h"
 #include "tests/montecarlo/statistics.h"
 
@@ -56,6 +57,35 @@ TEST(IntegratorComparison, holds_each_pair_against_each_other_on_what_both_find)
   const auto [mirrored, of_both] = apart(comparison.trials[1].found[0], pair.of_b[0]);
   EXPECT_NEAR(mirrored, reflects * std::asin(.2) / pi, of_both);
   EXPECT_LT(of_both, .01);
+}
+
+// Each by itself finds the mean of the main run, all together as well as it does; nothing is drawn by two of them.
+TEST(IntegratorComparison, replicates_by_runs_of_other_seeds) {
+  const scene::Scene scene = point_over_a_mirror();
+  IntegratorSettings settings;
+  settings.samples = 64'000;
+  core::LocalRun run(1, 2);
+  const std::vector<std::string> names{"path", "light", "whitted"};
+  settings.paths = measure::PathClasses::of("PE");
+  const auto comparison = compare_integrators(scene, ceiling_of(scene), names, settings, run.get(), 32);
+  ASSERT_EQ(comparison.pairs.size(), 3u);
+  for (const IntegratorPair& pair : comparison.pairs)
+    for (const auto& [found, again, name] :
+         {std::tuple{pair.of_a[0], pair.again_a, names[pair.a]}, {pair.of_b[0], pair.again_b, names[pair.b]}}) {
+      ASSERT_EQ(again.size(), 32u);
+      core::ScalarMoments means;
+      for (const std::vector<Estimate>& each : again) means.add(each[0].value[0]);
+      if (name == "whitted") {
+        EXPECT_EQ(means.mean(), found.value[0]);
+        continue;
+      }
+      EXPECT_EQ(again[0][0].samples, 2000u);
+      EXPECT_NE(again[0][0].value[0], again[1][0].value[0]);
+      EXPECT_NEAR(means.mean(), found.value[0], 5 * std::hypot(means.standard_error(), found.standard_error[0]))
+          << name;
+      EXPECT_GT(means.standard_error(), .5 * found.standard_error[0]);
+      EXPECT_LT(means.standard_error(), 2 * found.standard_error[0]);
+    }
 }
 
 TEST(IntegratorComparison, asks_nobody_for_what_it_does_not_find) {

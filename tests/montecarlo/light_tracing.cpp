@@ -25,16 +25,7 @@ void expect_same(const scene::Scene& scene, const std::vector<measure::Measureme
 TEST(LightTracer, agrees_with_paths_from_the_eye_on_all_that_can_be_asked) {
   for (const double scale : {1e-6, 1.0, 1e6}) {
     const scene::Scene scene = furnished(scale);
-    std::vector<measure::Measurement> asked;
-    for (const scene::SurfaceId id : scene.surface_ids()) {
-      const auto patches = measure::patches_of(scene, id, scene::Side::front);
-      asked.push_back(measure::PatchIrradiance{patches[0]});
-      asked.push_back(measure::Flux{patches});
-    }
-    asked.push_back(test::all_fronts(scene));
-    asked.push_back(measure::PointIrradiance{scale * Vec3(.5, 1, .4), Vec3(.6, 0, .8), {}});
-    asked.push_back(measure::PointIrradiance{scale * Vec3(2, 1, 0), z, test::surface_named(scene, "floor")});
-    for (int k = 0; k < 4; ++k) asked.push_back(measure::PixelRadiance{{0}, k + 1, k});
+    const auto asked = test::all_of_furnished(scene, scale);
     expect_same(scene, asked, scale == 1 ? 400'000 : 100'000, scale == 1 ? 40'000 : 20'000, scale == 1 ? .1 : .2);
   }
 }
@@ -80,11 +71,7 @@ TEST(LightTracer, loses_nothing_of_points_spots_and_balls) {
 // And of all of them together, with the sun and a sky that come in where the ceiling is open.
 TEST(LightTracer, agrees_with_paths_from_the_eye_on_every_kind_of_light) {
   const scene::Scene scene = test::lit_by_all();
-  std::vector<measure::Measurement> asked{test::all_fronts(scene)};
-  for (const scene::SurfaceId id : scene.surface_ids())
-    asked.push_back(measure::Flux{measure::patches_of(scene, id, scene::Side::front)});
-  asked.push_back(measure::PointIrradiance{Vec3(2, 1, .2), z, {}});
-  asked.push_back(measure::PointIrradiance{Vec3(.5, 1, .3), Vec3(.6, 0, .8), {}});
+  const auto asked = test::all_of_lit(scene);
   expect_same(scene, asked, 400'000, 100'000, .05);
 }
 

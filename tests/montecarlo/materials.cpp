@@ -1,3 +1,4 @@
+#include "montecarlo/bsdf/of_material.h"
 #include "tests/montecarlo/statistics.h"
 #include "tests/support/shapes.h"
 
@@ -40,6 +41,35 @@ scene::Material of(scene::Finish finish, scene::Sides sides = scene::Sides::both
 scene::Material mirror(double R) { return of(scene::Mirror{test::grey(R)}); }
 
 const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+
+// What a material is said to do is what its Bsdf does: that is built without it in mind.
+TEST(Materials, do_what_they_are_said_to_without_their_tables) {
+  const auto said_by = [](const std::unique_ptr<Bsdf>& bsdf) {
+    if (!bsdf) return Scatters{};
+    const bool joins = !bsdf->only_delta(), glossy = bsdf->glossy();
+    return Scatters{joins && !glossy, joins && glossy, bsdf->mirrors()};
+  };
+  const scene::Metal::Index index{test::grey(.2), test::grey(3)};
+  std::size_t kinds[3] = {};
+  for (const scene::Finish& finish : std::initializer_list<scene::Finish>{
+           scene::Lambertian{}, scene::Mirror{test::grey(.8)}, scene::Metal{test::grey(.8), 0},
+           scene::Metal{test::grey(.8), 9e-4}, scene::Metal{index, 1.1e-3}, scene::Metal{index, .4},
+           scene::Glass{1.5, 0}, scene::Glass{1.5, .3}, scene::Glass{1, 0}, scene::Glass{1, .3}, scene::Glass{.7, 0},
+           scene::Pane{test::grey(.8), 1.5}, scene::Plastic{1.5}})
+    for (const double diffuse : {0.0, .5})
+      for (const scene::Sides sides : {scene::Sides::front, scene::Sides::both})
+        for (const double opacity : {.5, 1.0}) {
+          scene::Material material = of(finish, sides, diffuse);
+          material.opacity = opacity;
+          const Scatters found = scatters_of(material), expected = said_by(bsdf_of(material));
+          EXPECT_EQ(found, expected) << scene::type_of(finish) << ' ' << finish.index() << ' ' << diffuse;
+          kinds[0] += found.diffuse, kinds[1] += found.glossy, kinds[2] += found.specular;
+        }
+  for (const std::size_t of_kind : kinds) EXPECT_GE(of_kind, 8u);
+  scene::Material gone = mirror(.8);
+  gone.opacity = 0;
+  EXPECT_EQ(scatters_of(gone), Scatters{});
+}
 
 // Two mirrors face each other and a light lies between their tops: images without end.
 TEST(Mirrors, of_a_corridor_show_a_row_of_lights) {

@@ -1,6 +1,7 @@
 #include "montecarlo/bsdf/of_material.h"
 #include "montecarlo/ray_tree/distributed.h"
 #include "montecarlo/ray_tree/whitted.h"
+#include "montecarlo/render.h"
 #include "tests/montecarlo/rooms.h"
 #include "tests/montecarlo/statistics.h"
 
@@ -246,13 +247,7 @@ TEST(RayTrees, agree_with_path_tracing_on_every_kind_of_light) {
 
 // Of 200 seeds 95 % intervals hold the truth in 181 .. 197 with a probability of .99; to a target, too.
 TEST(Distributed, holds_the_truth_as_often_as_it_says) {
-  SceneBuilder builder({"grey"});
-  builder.add_polygon("upper", test::parallelogram(z, y, x), builder.add_material(test::diffuse("upper", .5, 0)));
-  builder.add_polygon("lower", test::parallelogram(Vec3::Zero(), x, y),
-                      builder.add_material(test::diffuse("lower", .5, 1)));
-  builder.scene().cameras.push_back(
-      {"c", Vec3(.5, .5, .5), Vec3(.5, .5, 1), x, scene::Projection(scene::Orthographic{1}), 1, 1});
-  const scene::Scene scene = builder.finish();
+  const scene::Scene scene = test::facing_squares();
   const std::vector<measure::Measurement> flux{
       measure::Flux{measure::patches_of(scene, test::surface_named(scene, "upper"), scene::Side::front)},
       measure::PointIrradiance{Vec3(.5, .5, 1), -z, test::surface_named(scene, "upper")}},
@@ -322,9 +317,43 @@ TEST(Whitted, ends_between_mirrors_and_says_what_it_left_out) {
   builder.add_polygon("lamp", test::parallelogram(Vec3(.3, 0, 0), .2 * x, .2 * y),
                       builder.add_material(test::diffuse("l", 0, 1)));
   look(builder, Vec3(.5, 1, 1), Vec3(1, 1, 1), z);
-  const Estimate found = pixel(Whitted({.samples = 64}), builder.finish());
+  const scene::Scene scene = builder.finish();
+  const Estimate found = pixel(Whitted({.samples = 64}), scene);
   EXPECT_EQ(found.value[0], 0);
   EXPECT_GT(found.error_bound[0], 0);
+  // A picture's errors have it too, and nothing else: all trees are alike.
+  core::LocalRun run(1);
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  RenderSettings settings;
+  settings.integrator = "whitted", settings.samples = 64;
+  const Rendering picture = render(scene, {0}, settings, run, *rays);
+  const double nothing_found = 3 * inv_pi / 64;
+  EXPECT_EQ(picture.radiance.data[0], 0);
+  EXPECT_GT(picture.standard_error.data[0], 1.01 * nothing_found);
+  EXPECT_NEAR(picture.standard_error.data[0], nothing_found + inv_pi / normal_95, 1e-6);
+  // And a run that goes on.
+  FilmState half;
+  RenderCheckpoints checkpoints;
+  checkpoints.seconds_between = 0, checkpoints.keep = [&](const FilmState& state) { half = state; };
+  settings.samples = 32;
+  render(scene, {0}, settings, run, *rays, checkpoints);
+  checkpoints = {&half};
+  settings.samples = 64;
+  EXPECT_EQ(render(scene, {0}, settings, run, *rays, checkpoints).standard_error.data, picture.standard_error.data);
+}
+
+// Whatever the seed: a picture by whitted has no chance in it.
+TEST(Whitted, draws_the_same_picture_by_any_seed) {
+  const scene::Scene scene = test::furnished(1);
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  RenderSettings settings;
+  settings.integrator = "whitted", settings.samples = 32, settings.paths = measure::PathClasses::of("L(D|G)?S*E");
+  core::LocalRun one(1, 1), other(2, 3);
+  const Rendering a = render(scene, {0}, settings, one, *rays), b = render(scene, {0}, settings, other, *rays);
+  EXPECT_EQ(a.radiance.data, b.radiance.data);
+  EXPECT_EQ(a.standard_error.data, b.standard_error.data);
+  settings.samples = 20;
+  EXPECT_THROW(render(scene, {0}, settings, one, *rays), core::InputError);
 }
 
 }  // namespace

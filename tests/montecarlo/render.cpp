@@ -1,5 +1,6 @@
 #include "montecarlo/render.h"
 
+#include "core/student_t.h"
 #include "montecarlo/film/reconstruction_filter.h"
 #include "tests/montecarlo/statistics.h"
 #include "tests/montecarlo/stopping_caster.h"
@@ -129,23 +130,38 @@ void expect_same(const Rendering& a, const Rendering& b) {
   EXPECT_EQ(a.samples_a_pixel.data, b.samples_a_pixel.data);
 }
 
+/// That need no solution of radiosity.
+constexpr const char* without_a_solution[] = {"path", "bidirectional", "light", "distributed", "whitted"};
+
+/// Of a room that is diffuse.
+measure::PathClasses found_in_pictures(const std::string& integrator) {
+  const bool trees = integrator == "whitted" || integrator == "distributed";
+  return measure::PathClasses::of(trees ? "LD?E" : "L.*E");
+}
+
 // Stopped once and again, at any ray, on other numbers of threads, and asked for more samples on the way: the bits of a
 // run that nothing stopped.
 TEST(Render, goes_on_from_where_it_was_stopped_to_the_same_bits) {
   const scene::Scene scene = lit_cube(0.5, 0, 1, 20, 16);
-  for (const auto& [filter, sequence, integrator] : {std::tuple{"box", "independent", "path"},
-                                                     {"mitchell", "independent", "path"},
-                                                     {"gaussian", "zero-two", "path"},
-                                                     {"box", "independent", "bidirectional"},
-                                                     {"mitchell", "independent", "bidirectional"}}) {
+  // Rays before a stop: sweeps are whole or not at all, and whitted's first pass has 16 samples a pixel.
+  for (const auto& [filter, sequence, integrator, rays_before_a_stop] :
+       {std::tuple{"box", "independent", "path", 9'000},
+        {"mitchell", "independent", "path", 9'000},
+        {"gaussian", "zero-two", "path", 9'000},
+        {"box", "independent", "bidirectional", 150'000},
+        {"mitchell", "independent", "bidirectional", 150'000},
+        {"box", "independent", "light", 60'000},
+        {"mitchell", "independent", "light", 60'000},
+        {"box", "independent", "distributed", 9'000},
+        {"mitchell", "independent", "distributed", 9'000},
+        {"box", "independent", "whitted", 3'000},
+        {"mitchell", "independent", "whitted", 6'000}}) {
     const auto settings_of = [&, filter = filter, sequence = sequence, integrator = integrator](std::uint64_t samples) {
       RenderSettings of = settings_with(samples, filter, sequence);
-      of.integrator = integrator;
+      of.integrator = integrator, of.paths = found_in_pictures(integrator);
       return of;
     };
     const RenderSettings settings = settings_of(256);
-    // A sweep is whole or not at all.
-    const std::uint64_t rays_before_a_stop = settings.integrator == "path" ? 9'000 : 150'000;
     core::LocalRun undisturbed(3, 2);
     const auto rays = raycast::make_ray_caster("brute", scene);
     const Rendering expected = render(scene, {0}, settings, undisturbed, *rays);
@@ -156,7 +172,8 @@ TEST(Render, goes_on_from_where_it_was_stopped_to_the_same_bits) {
       core::LocalRun run(3, threads);
       run.get().stop = source.get_token();
       const bool last = threads == 1 && stops > 0;
-      const test::StoppingCaster caster(scene, source, last ? ~std::uint64_t{0} >> 1 : rays_before_a_stop);
+      const test::StoppingCaster caster(scene, source,
+                                        last ? ~std::uint64_t{0} >> 1 : static_cast<std::uint64_t>(rays_before_a_stop));
       RenderCheckpoints checkpoints;
       const FilmState before = kept;
       if (kept.size() > 0) checkpoints.from = &before;
@@ -167,9 +184,9 @@ TEST(Render, goes_on_from_where_it_was_stopped_to_the_same_bits) {
         if (last)
           expect_same(found, expected);
         else
-          EXPECT_LT(found.samples, 256u);
+          EXPECT_LT(found.samples, 256u) << integrator;
       } catch (const core::Interrupted&) {
-        EXPECT_EQ(stops, 0);  // before every pixel had a sample, and kept all the same
+        EXPECT_EQ(stops, 0) << integrator;  // before every pixel had a sample, and kept all the same
       }
       EXPECT_GT(kept.size(), 0);
       stops += last ? 0 : 1;
@@ -178,35 +195,46 @@ TEST(Render, goes_on_from_where_it_was_stopped_to_the_same_bits) {
   }
 }
 
-// By either integrator, pixel by pixel within both errors, filters with negative lobes too; sweeps splat into neighbours.
-TEST(Render, is_the_same_picture_by_either_integrator) {
+// By any integrator, pixel by pixel within both errors, filters with negative lobes too; sweeps splat into neighbours.
+TEST(Render, is_the_same_picture_by_any_integrator) {
   const scene::Scene scene = lit_cube(0.5, 0, 1, 12, 10);
   const auto rays = raycast::make_ray_caster("embree", scene);
-  for (const char* filter : {"box", "gaussian", "mitchell"}) {
-    RenderSettings settings = settings_with(2048, filter, "independent");
-    core::LocalRun run(3, 2);
-    const Rendering path = render(scene, {0}, settings, run, *rays);
-    settings.integrator = "bidirectional", settings.samples = 512;
-    const Rendering both = render(scene, {0}, settings, run, *rays);
-    const double limit = test::critical_z(test::alpha, path.radiance.data.size());
-    for (std::size_t k = 0; k < path.radiance.data.size(); ++k) {
-      const double error = std::hypot(path.standard_error.data[k], both.standard_error.data[k]);
-      EXPECT_NEAR(both.radiance.data[k], path.radiance.data[k], limit * error + 1e-6) << filter << ' ' << k;
-      EXPECT_LT(error, .1 * path.radiance.data[k] + 1e-3) << filter << ' ' << k;
+  for (const char* filter : {"box", "gaussian", "mitchell"})
+    for (const auto& [integrator, samples] :
+         {std::pair{"bidirectional", 512}, {"light", 4096}, {"distributed", 1024}, {"whitted", 512}}) {
+      RenderSettings settings = settings_with(2048, filter, "independent");
+      settings.paths = found_in_pictures(integrator);
+      core::LocalRun run(3, 2);
+      const Rendering path = render(scene, {0}, settings, run, *rays);
+      settings.integrator = integrator, settings.samples = static_cast<std::uint64_t>(samples);
+      const Rendering other = render(scene, {0}, settings, run, *rays);
+      // Whitted's errors are those of 16 means: Student's, with 15 degrees of freedom.
+      const std::size_t comparisons = 12 * path.radiance.data.size();
+      const double limit =
+          settings.integrator == "whitted"
+              ? core::student_t(std::pow(1 - test::alpha, 1 / static_cast<double>(comparisons)), sequence_batches - 1)
+              : test::critical_z(test::alpha, comparisons);
+      for (std::size_t k = 0; k < path.radiance.data.size(); ++k) {
+        const double error = std::hypot(path.standard_error.data[k], other.standard_error.data[k]);
+        EXPECT_NEAR(other.radiance.data[k], path.radiance.data[k], limit * error + 1e-6)
+            << integrator << ' ' << filter << ' ' << k;
+        EXPECT_LT(error, .1 * path.radiance.data[k] + 1e-3) << integrator << ' ' << filter << ' ' << k;
+      }
     }
-  }
 }
 
 // To a target it ends at 64 samples, or twice as many, .., where errors are as small, and not far below.
 TEST(Render, ends_where_errors_are_as_small_as_is_asked_for) {
   const scene::Scene scene = lit_cube(0.5, 0, 1, 20, 16);
   const auto rays = raycast::make_ray_caster("embree", scene);
-  for (const char* integrator : {"path", "bidirectional"}) {
+  for (const std::string integrator : without_a_solution) {
     RenderSettings settings = settings_with(1 << 16, "box", "independent");
-    settings.integrator = integrator, settings.target = .05;
+    settings.integrator = integrator, settings.target = integrator == "whitted" ? .005 : .05;
+    settings.paths = found_in_pictures(integrator);
     core::LocalRun run(3, 2);
     const Rendering found = render(scene, {0}, settings, run, *rays);
-    EXPECT_LT(found.samples, settings.samples);
+    EXPECT_LT(found.samples, settings.samples) << integrator;
+    EXPECT_GT(found.samples, 64u) << integrator;
     EXPECT_EQ(found.samples & (found.samples - 1), 0u) << found.samples;
     settings.samples = found.samples, settings.target = 0;
     expect_same(render(scene, {0}, settings, run, *rays), found);
@@ -239,6 +267,29 @@ TEST(Render, keeps_states_on_the_way) {
   const FilmState less = kept.back().topRows(7);
   from.from = &less;
   EXPECT_THROW(render(scene, {0}, settings, run, *rays, from), core::InputError);
+}
+
+// However samples are cut into passes: of 48, then of 80, then of 160.
+TEST(Render, goes_on_from_any_number_of_samples) {
+  const scene::Scene scene = lit_cube(0.5, 0, 1, 20, 16);
+  core::LocalRun run(3, 2);
+  const auto rays = raycast::make_ray_caster("embree", scene);
+  for (const std::string integrator : without_a_solution) {
+    FilmState state;
+    const auto gone_on_to = [&](std::uint64_t samples, bool from_state) {
+      RenderSettings settings = settings_with(samples, "mitchell", "independent");
+      settings.integrator = integrator, settings.paths = found_in_pictures(integrator);
+      const FilmState before = state;
+      RenderCheckpoints checkpoints;
+      if (from_state) checkpoints.from = &before;
+      checkpoints.seconds_between = 0;
+      checkpoints.keep = [&](const FilmState& now) { state = now; };
+      return render(scene, {0}, settings, run, *rays, checkpoints);
+    };
+    gone_on_to(48, false), gone_on_to(80, true);
+    const Rendering parts = gone_on_to(160, true);
+    expect_same(parts, gone_on_to(160, false));
+  }
 }
 
 // A state may have come further in some pixels than the next pass goes: of a stop within a pass of another pace.

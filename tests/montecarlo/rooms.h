@@ -36,6 +36,33 @@ inline scene::Scene furnished(double scale) {
   return builder.finish();
 }
 
+/// All that can be asked of it: patches, fluxes, points in the air and on walls, and pixels.
+inline std::vector<measure::Measurement> all_of_furnished(const scene::Scene& scene, double scale) {
+  std::vector<measure::Measurement> asked;
+  for (const scene::SurfaceId id : scene.surface_ids()) {
+    const auto patches = measure::patches_of(scene, id, scene::Side::front);
+    asked.push_back(measure::PatchIrradiance{patches[0]});
+    asked.push_back(measure::Flux{patches});
+  }
+  asked.push_back(all_fronts(scene));
+  asked.push_back(measure::PointIrradiance{scale * Vec3(.5, 1, .4), Vec3(.6, 0, .8), {}});
+  asked.push_back(measure::PointIrradiance{scale * Vec3(2, 1, 0), Vec3::UnitZ(), surface_named(scene, "floor")});
+  for (int k = 0; k < 4; ++k) asked.push_back(measure::PixelRadiance{{0}, k + 1, k});
+  return asked;
+}
+
+/// Two unit squares that face each other, the lower one bright, both of reflectance 1/2; a camera between them that sees
+/// the whole upper one.
+inline scene::Scene facing_squares() {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  scene::SceneBuilder builder({"grey"});
+  builder.add_polygon("upper", parallelogram(z, y, x), builder.add_material(diffuse("upper", .5, 0)));
+  builder.add_polygon("lower", parallelogram(Vec3::Zero(), x, y), builder.add_material(diffuse("lower", .5, 1)));
+  builder.scene().cameras.push_back(
+      {"c", Vec3(.5, .5, .5), Vec3(.5, .5, 1), x, scene::Projection(scene::Orthographic{1}), 1, 1});
+  return builder.finish();
+}
+
 /// A room with half a ceiling and lights of every kind: surfaces aside, a point, a spot, a ball, the sun and a sky.
 inline scene::Scene lit_by_all() {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
@@ -66,6 +93,16 @@ inline scene::Scene lit_by_all() {
   lights.suns.push_back({"sun", Vec3(-.48, .36, -.8), both(3, 2)});
   lights.sky = scene::Sky{z, both(.4, .8), both(0, 0)};
   return builder.finish();
+}
+
+/// Every front of it, all of them together, and two points.
+inline std::vector<measure::Measurement> all_of_lit(const scene::Scene& scene) {
+  std::vector<measure::Measurement> asked{all_fronts(scene)};
+  for (const scene::SurfaceId id : scene.surface_ids())
+    asked.push_back(measure::Flux{measure::patches_of(scene, id, scene::Side::front)});
+  asked.push_back(measure::PointIrradiance{Vec3(2, 1, .2), Vec3::UnitZ(), {}});
+  asked.push_back(measure::PointIrradiance{Vec3(.5, 1, .3), Vec3(.6, 0, .8), {}});
+  return asked;
 }
 
 /// A room with every material: a mirror on a wall, a block of glass, a rough one, metal, plastic, a net, and small lamps.

@@ -1,0 +1,153 @@
+#include "montecarlo/sample_report.h"
+
+#include "montecarlo/integrators.h"
+#include "montecarlo/render.h"
+#include "tests/montecarlo/rooms.h"
+#include "tests/montecarlo/statistics.h"
+
+// What integrators tell of samples that are no numbers, or of which one is much.
+namespace interflect::montecarlo {
+namespace {
+
+using scene::SceneBuilder;
+
+const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+
+/// So many samples of 1, and one of `largest`.
+Tally with_one_of(double largest, int ones) {
+  Tally tally;
+  for (int k = 0; k < ones; ++k) tally.add(test::grey(1), 1, static_cast<std::uint64_t>(k));
+  Tally other;
+  other.add(test::grey(largest), largest, 1000);
+  tally.merge(other);
+  return tally;
+}
+
+// 5 %, and of few samples 20 times what each is on average.
+TEST(SampleReport, tells_where_one_sample_is_much) {
+  SampleReport report;
+  report.add(0, with_one_of(1, 999));
+  report.add(1, with_one_of(50, 999));   // 4.8 %
+  report.add(2, with_one_of(100, 900));  // 10 %
+  report.add(3, with_one_of(60, 940));   // 6 %
+  report.add(4, with_one_of(1, 3));      // a quarter, as each is
+  report.add(5, with_one_of(8, 63));     // 11 %, 7 times the mean
+  report.add(6, with_one_of(60, 60));    // half, 30 times
+  ASSERT_EQ(report.heavy.size(), 3u);
+  EXPECT_EQ(report.heavy[0].measurement, 2u);
+  EXPECT_EQ(report.heavy[1].measurement, 3u);
+  EXPECT_EQ(report.heavy[2].measurement, 6u);
+  EXPECT_DOUBLE_EQ(report.heavy[1].share, .06);
+  EXPECT_EQ(report.heavy_text({"a", "b", "c", "d", "e", "f", "desk"}),
+            "one sample carries 50 % of desk: its error may be understated; so in 3 of 7");
+  EXPECT_EQ(SampleReport().heavy_text({}), "");
+}
+
+class EveryReport : public testing::TestWithParam<std::string> {
+ protected:
+  /// Of the paths that it finds to all that is asked.
+  IntegratorSettings settings(std::uint64_t samples, std::span<const measure::Measurement> asked,
+                              SampleReport& report) const {
+    IntegratorSettings settings;
+    settings.samples = samples;
+    settings.report = &report;
+    const measure::Capabilities finds = make_integrator(GetParam(), {})->capabilities();
+    for (const measure::Measurement& each : asked) settings.paths = settings.paths & finds.paths_to(each);
+    return settings;
+  }
+  Rendering picture(const scene::Scene& scene, const measure::PathClasses& paths) const {
+    RenderSettings settings;
+    settings.integrator = GetParam(), settings.samples = 16, settings.paths = paths;
+    core::LocalRun run(1, 2);
+    return render(scene, {0}, settings, run, *raycast::make_ray_caster("embree", scene));
+  }
+};
+
+/// A point light of 1e305 W/sr 1 mm above a small floor: more than a double holds, wherever it is found.
+scene::Scene beyond_numbers() {
+  SceneBuilder builder({"grey"});
+  builder.add_polygon("floor", test::parallelogram(Vec3(-.01, -.01, 0), .02 * x, .02 * y),
+                      builder.add_material(test::diffuse("f", .5, 0)));
+  builder.scene().lights.points.push_back({"p", .001 * z, test::grey(1e305)});
+  builder.scene().cameras.push_back({"c", .02 * z, Vec3::Zero(), y, 20, 4, 3});
+  return builder.finish();
+}
+
+TEST_P(EveryReport, counts_samples_that_are_no_numbers) {
+  const scene::Scene scene = beyond_numbers();
+  const std::vector<measure::Measurement> asked{
+      measure::PatchIrradiance{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)[0]},
+      measure::PointIrradiance{Vec3(0, 0, 1e-4), z, {}}};
+  SampleReport report;
+  core::LocalRun run(1, 2);
+  const auto found = make_integrator(GetParam(), settings(64, asked, report))->answer(scene, asked, run.get());
+  EXPECT_GE(report.not_finite, 64u);
+  for (const Estimate& each : found) {
+    EXPECT_EQ(each.claim, Claim::none);
+    EXPECT_TRUE(std::isinf(each.error_bound[0]));
+    EXPECT_TRUE(std::isfinite(each.value[0]));
+  }
+  const Rendering seen = picture(scene, measure::PathClasses::of("PDE"));
+  EXPECT_GE(seen.report.not_finite, 1u);
+  int unknown = 0;
+  for (std::size_t p = 0; p < seen.radiance.data.size(); ++p) {
+    EXPECT_TRUE(std::isfinite(seen.radiance.data[p]));
+    unknown += std::isinf(seen.standard_error.data[p]);
+  }
+  EXPECT_GE(unknown, 1);
+}
+
+// In rooms of all lights and all materials, at patches, points and pixels.
+TEST_P(EveryReport, has_no_such_samples_of_good_scenes) {
+  for (scene::Scene scene : {test::lit_by_all(), test::shiny()}) {
+    if (scene.cameras.empty())
+      scene.cameras.push_back(
+          {"c", Vec3(.2, .9, .5), Vec3(2.2, 1, .35), z, scene::Projection(scene::Pinhole{80}), 3, 3});
+    std::vector<measure::Measurement> asked{test::all_fronts(scene)};
+    asked.emplace_back(measure::PointIrradiance{Vec3(.3, 1, .4), Vec3(.6, 0, .8), {}});
+    for (int k = 0; k < 4; ++k) asked.emplace_back(measure::PixelRadiance{{0}, k % 2, k / 2});
+    SampleReport report;
+    const IntegratorSettings of = settings(GetParam() == "light" ? 100'000 : 10'000, asked, report);
+    core::LocalRun run(1, 2);
+    for (const Estimate& each : make_integrator(GetParam(), of)->answer(scene, asked, run.get()))
+      EXPECT_NE(each.claim, Claim::none);
+    EXPECT_EQ(report.not_finite, 0u);
+    EXPECT_EQ(picture(scene, of.paths).report.not_finite, 0u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryReport,
+                         testing::Values("path", "bidirectional", "light", "distributed", "whitted"),
+                         [](const auto& of) { return of.param; });
+
+// A small lamp in a mirror: paths from the floor meet it one time in 10 000 or so, and each find is much; paths from the
+// lamp all do.
+TEST(SampleReport, flags_what_is_found_by_rare_samples) {
+  SceneBuilder builder({"grey"});
+  scene::Material mirror;
+  mirror.finish = scene::Mirror{test::grey(.8)};
+  builder.add_polygon("floor", test::parallelogram(Vec3(-1, -1, 0), 2 * x, 2 * y),
+                      builder.add_material(test::diffuse("f", 0, 0)));
+  builder.add_polygon("mirror", test::parallelogram(Vec3(-1, -1, 2), 2 * y, 2 * x), builder.add_material(mirror));
+  builder.add_polygon("lamp", test::parallelogram(Vec3(0, 0, .5), .06 * x, .06 * y),
+                      builder.add_material(test::diffuse("l", 0, 1)));
+  const scene::Scene scene = builder.finish();
+  const measure::Measurement floor =
+      measure::Flux{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)};
+  const auto report_of = [&](const char* integrator) {
+    SampleReport report;
+    IntegratorSettings settings;
+    settings.samples = 100'000, settings.paths = measure::PathClasses::of("ASE"), settings.report = &report;
+    core::LocalRun run(1, 2);
+    make_integrator(integrator, settings)->answer(scene, {&floor, 1}, run.get());
+    return report;
+  };
+  const SampleReport rare = report_of("path"), common = report_of("light");
+  ASSERT_EQ(rare.heavy.size(), 1u);
+  EXPECT_GT(rare.heavy[0].share, .05);
+  EXPECT_LE(rare.heavy[0].share, 1);
+  EXPECT_TRUE(common.heavy.empty());
+}
+
+}  // namespace
+}  // namespace interflect::montecarlo
