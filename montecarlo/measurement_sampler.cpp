@@ -60,6 +60,7 @@ Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& fil
 void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
                   const PathEstimator& paths, const PathEstimator::Keys& keys, std::span<Spectrum> samples) {
   std::vector<OnFilm> at;
+  at.reserve(samples.size());
   for (std::size_t k = 0; k < samples.size(); ++k) {
     core::RandomNumbers numbers = keys.numbers(k);
     at.push_back(on_film(film, numbers));
@@ -67,6 +68,7 @@ void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter
   std::vector<Spectrum> found(samples.size());
   const auto radiances = [&](auto offset, std::uint32_t block) {
     std::vector<std::optional<raycast::Ray>> rays;
+    rays.reserve(samples.size());
     for (const OnFilm& each : at) {
       const auto ray = film.ray(middle_of(pixel) + offset(each), each.lens);
       rays.push_back(ray ? std::optional(raycast::Ray{ray->origin, ray->direction}) : std::nullopt);
@@ -111,6 +113,7 @@ void MeasurementSampler::sample(const PathEstimator& paths, const PathEstimator:
     return;
   }
   std::vector<Receiver> at;
+  at.reserve(samples.size());
   for (std::size_t k = 0; k < samples.size(); ++k) {
     core::RandomNumbers numbers = keys.numbers(k);
     at.push_back(place_->draw(numbers));
