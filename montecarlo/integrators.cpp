@@ -22,18 +22,8 @@ std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
   settings.intersector = asked.intersector;
   settings.paths = asked.paths;
   settings.report = asked.report;
+  if constexpr (requires { settings.solution; }) settings.solution = asked.solution;
   return std::make_unique<Integrator>(std::move(settings));
-}
-
-std::unique_ptr<measure::Method> make_two_pass(const IntegratorSettings& asked) {
-  TwoPassSettings settings;
-  settings.samples = asked.samples;
-  settings.target = asked.target;
-  settings.intersector = asked.intersector;
-  settings.paths = asked.paths;
-  settings.solution = asked.solution;
-  settings.report = asked.report;
-  return std::make_unique<TwoPass>(std::move(settings));
 }
 
 }  // namespace
@@ -53,7 +43,7 @@ const std::vector<IntegratorEntry>& known_integrators() {
       {.name = "two-pass",
        .summary = "radiosity for what is diffuse, paths for the rest",
        .shares_paths = false,
-       .make = make_two_pass,
+       .make = make<TwoPass, TwoPassSettings>,
        .expose = two_pass_exposure,
        .needs_solution = true},
   };

@@ -16,8 +16,8 @@ namespace interflect::montecarlo {
 ///   L(x -> o) = L_e(x -> o) + int f(i -> o) L(y -> x) |cos_i| d sigma_i,     y what is seen from x along i,
 ///
 /// by recursion on y, whose direction the Bsdf of x draws.  Light that shines from y, or from afar where the ray
-/// escapes, is found by two techniques: that ray, and a way drawn to a light that is picked for x (LightSet).  Under the balance
-/// heuristic [Veach and Guibas 1995, eq. 11] both score
+/// escapes, is found by two techniques: that ray, and a way drawn to a light that is picked for x (LightSet).  Under the
+/// balance heuristic [Veach and Guibas 1995, eq. 11] both score
 ///
 ///   f |cos_x| L(y) / (p_bsdf + p_light)  [1/sr],   p_light = p_pick pdf_solid_angle(y from x),
 ///

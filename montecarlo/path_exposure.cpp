@@ -8,8 +8,8 @@
 namespace interflect::montecarlo {
 namespace {
 
-/// Of a sequence: of the film 2, of the lens 2 where there is one, of the first vertex 8, and what is left of the second.  Those of further ones gain 3 % of the variance
-/// in the Cornell box, and take nearly as long as the path does.
+/// Of a sequence: of the film 2, of the lens 2 where there is one, of the first vertex 8, and what is left of the second.
+/// Those of further ones gain 3 % of the variance in the Cornell box, and take nearly as long as the path does.
 constexpr std::size_t given_numbers = 12;
 
 class PathExposure final : public PixelExposure {

@@ -14,7 +14,8 @@ namespace interflect::fem {
 /// Every entry stored, in doubles, each pair once: 4 N² bytes.
 ///
 /// The lower triangle lies in square tiles, row of tiles after row of tiles, each cut into parts of some rows
-/// (solvers/tile_access.h), so that one pass over memory serves K_IJ and its mirror K_JI = K_IJ^T.  Symmetric by construction: there is only one number a pair.
+/// (solvers/tile_access.h), so that one pass over memory serves K_IJ and its mirror K_JI = K_IJ^T.  Symmetric by
+/// construction: there is only one number a pair.
 ///
 /// Standard errors of entries are kept in single precision, in tiles made when an entry in them was sampled: up to 2 N²
 /// bytes more.  Bounds on quadrature errors are not kept: they are at most the tolerance that the method was given.

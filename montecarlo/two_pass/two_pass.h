@@ -32,7 +32,8 @@ class TwoPass final : public measure::Method {
   explicit TwoPass(TwoPassSettings settings) : settings_(std::move(settings)) {}
   std::string name() const override { return "two-pass"; }
   measure::Capabilities capabilities() const override;
-  /// @throws core::InputError  without a solution, with why there is none, in a scene that it does not know, with some paths alone
+  /// @throws core::InputError  without a solution, with why there is none; in a scene that it does not know, or of some
+  ///                           paths alone
   std::vector<Estimate> answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                Run& run) const override;
 

@@ -94,7 +94,7 @@ TEST(ExtendedRadiosity, by_walks_as_by_form_factors) {
   settings.stopping.noise = .006;
   core::LocalRun run(5, 2);
   const RadiositySolution walks = solve_radiosity(scene, settings, run.get());
-  Spectrum by_matrix, by_walks, noise;
+  Spectrum by_matrix, by_walks;
   for (std::size_t i = 0; i < matrix.irradiance.size(); ++i) {
     const double area = matrix.mesh.patches()[i].area;
     by_matrix += area * matrix.irradiance[i], by_walks += area * walks.irradiance[i];

@@ -55,6 +55,18 @@ double analytic(const std::vector<scene::SurfacePatch>& patches) {
   return sink.K(0, 1);
 }
 
+/// Diffuse squares, each an element.
+struct Squares {
+  scene::SceneBuilder builder{{"a"}, scene::Quantity::radiometric};
+  std::vector<scene::SurfacePatch> patches;
+
+  void add(const Vec3& corner, const Vec3& u, const Vec3& v) {
+    const auto id = builder.add_polygon("square", parallelogram(corner, u, v), builder.add_material(test::diffuse(.5)));
+    const Vec3 ring[] = {corner, corner + u, corner + u + v, corner + v};
+    patches.push_back(scene::make_patch(id, scene::Side::front, ring));
+  }
+};
+
 /// Two squares beside each other, that face up, under a wide mirror at height h.
 struct UnderMirror {
   explicit UnderMirror(double scale, double reflectance) {
@@ -95,15 +107,10 @@ TEST(SpecularChains, see_mirror_images) {
 
 // Through a pane: the mean of its transmittance over the pairs of points, by quadrature of small parts.
 TEST(SpecularChains, pass_panes) {
-  scene::SceneBuilder builder({"a"}, scene::Quantity::radiometric);
-  std::vector<scene::SurfacePatch> patches;
-  const auto square = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
-    const auto id = builder.add_polygon("square", parallelogram(corner, u, v), builder.add_material(test::diffuse(.5)));
-    const Vec3 ring[] = {corner, corner + u, corner + u + v, corner + v};
-    patches.push_back(scene::make_patch(id, scene::Side::front, ring));
-  };
-  square(Vec3::Zero(), x, y);
-  square(Vec3(0, 0, 1), y, 2 * x);
+  Squares squares;
+  auto& [builder, patches] = squares;
+  squares.add(Vec3::Zero(), x, y);
+  squares.add(Vec3(0, 0, 1), y, 2 * x);
   const scene::Material pane = of_finish(scene::Pane{Spectrum(.6)});
   builder.add_polygon("pane", parallelogram(Vec3(-9, -9, .5), 20 * x, 20 * y), builder.add_material(pane));
   const scene::Scene scene = builder.finish();
@@ -125,15 +132,10 @@ TEST(SpecularChains, pass_panes) {
 
 // A_i F_ij = A_j F_ji by way of a block of glass, whose rays are bent, and of total reflection within it.
 TEST(SpecularChains, are_reciprocal_through_glass) {
-  scene::SceneBuilder builder({"a"}, scene::Quantity::radiometric);
-  std::vector<scene::SurfacePatch> patches;
-  const auto square = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
-    const auto id = builder.add_polygon("square", parallelogram(corner, u, v), builder.add_material(test::diffuse(.5)));
-    const Vec3 ring[] = {corner, corner + u, corner + u + v, corner + v};
-    patches.push_back(scene::make_patch(id, scene::Side::front, ring));
-  };
-  square(Vec3::Zero(), x, y);
-  square(Vec3(1.2, .1, 1), .6 * y, .5 * x);
+  Squares squares;
+  auto& [builder, patches] = squares;
+  squares.add(Vec3::Zero(), x, y);
+  squares.add(Vec3(1.2, .1, 1), .6 * y, .5 * x);
   builder.add_box("glass", {Vec3(-.3, -.3, .2), Vec3(1.8, 1.4, .7)},
                   builder.add_material(of_finish(scene::Glass{1.5, 0})));
   const scene::Scene scene = builder.finish();
