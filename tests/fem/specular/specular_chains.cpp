@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "fem/specular/light_caster.h"
 #include "fem/specular/smooth_surface.h"
+#include "fem/two_views.h"
 #include "tests/fem/specular/mirrored_rooms.h"
 
 namespace interflect::fem {
@@ -167,6 +168,39 @@ TEST(SpecularChains, carry_colours) {
   }
   EXPECT_NEAR(sum[0], .9, 4 * std::sqrt(.09 / n));
   EXPECT_NEAR(sum[1], .3, 4 * std::sqrt(.01 / n));
+}
+
+// The same of what passes: T of each channel, at right angles.
+TEST(SpecularChains, carry_colours_through_panes) {
+  scene::SceneBuilder builder({"a", "b"}, scene::Quantity::radiometric);
+  builder.add_polygon("ceiling", parallelogram(Vec3(-9, -9, 2), 18 * y, 18 * x),
+                      builder.add_material(test::diffuse(.5)));
+  builder.add_polygon("pane", parallelogram(Vec3(-9, -9, 1), 18 * y, 18 * x),
+                      builder.add_material(of_finish(scene::Pane{both(.8, .3)})));
+  const scene::Scene scene = builder.finish();
+  const auto rays = raycast::make_ray_caster("brute", scene);
+  const SpecularChains chains(scene, *rays, 1);
+  Spectrum sum;
+  constexpr int n = 40000;
+  core::RandomNumbers random(3, 0, 0);
+  for (int k = 0; k < n; ++k) {
+    const SpecularChains::End end = chains.follow({Vec3(random.next(), random.next(), .5), z});
+    if (end.at && scene.surface(end.at->surface).name == "ceiling") sum += end.weight / double{n};
+  }
+  EXPECT_NEAR(sum[0], .8, 4 * std::sqrt(.16 / n));
+  EXPECT_NEAR(sum[1], .3, 4 * std::sqrt(.07 / n));
+}
+
+// A pair is seen twice, an element by itself once.
+TEST(TwoViews, of_an_element_with_itself_are_one) {
+  TwoViews views(2);
+  views.add(0, 0, {.3, .02, .01});
+  views.add(0, 1, {.4, .02, 0});
+  views.add(1, 0, {.4, .02, 0});
+  EXPECT_NEAR(views.joined(0, 0).K, .3, 1e-7);
+  EXPECT_NEAR(views.joined(0, 0).standard_error, .02, 1e-8);
+  EXPECT_NEAR(views.joined(0, 0).bound, .01, 1e-8);
+  EXPECT_NEAR(views.joined(0, 1).standard_error, .02 / std::sqrt(2), 1e-8);
 }
 
 TEST(SpecularChains, refuse_what_stands_inside_glass) {
