@@ -39,6 +39,10 @@ FirstPass::FirstPass(const scene::Scene& scene, const std::vector<std::string>& 
   processor_seconds_ = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
+void FirstPass::require_solved() const {
+  if (!refused_.empty()) throw core::InputError(refused_);
+}
+
 measure::SurfaceSolution FirstPass::solution() const {
   measure::SurfaceSolution solution;
   if (solved_) solution = fem::as_surface_solution(solved_->radiosity, solved_->mirrored);

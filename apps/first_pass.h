@@ -21,6 +21,8 @@ class FirstPass {
   FirstPass(const scene::Scene& scene, const std::vector<std::string>& integrators, const measure::PathClasses& paths,
             const std::string& intersector, Run& run);
 
+  /// @throws core::InputError  why there is none, where one was needed
+  void require_solved() const;
   /// Of what is here.
   measure::SurfaceSolution solution() const;
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "fem/specular/specular_chains.h"
 #include "results/factor_pairs.h"
 
 namespace interflect::apps {
@@ -171,8 +172,13 @@ static std::optional<double> elements_to_bound(const fem::Forecast& forecast, co
 }
 
 scene::Scene scene_to_solve(const SolveOptions& options) {
-  return read_to_solve(options.scene, SceneUse::light,
-                       options.bounds ? scene::Twice::nothing : scene::Twice::parts_of_a_surface);
+  scene::Scene scene = read_to_solve(options.scene, SceneUse::light,
+                                     options.bounds ? scene::Twice::nothing : scene::Twice::parts_of_a_surface);
+  if (const auto smooth = fem::any_smooth(scene); smooth && (options.bounds || options.residual))
+    throw core::InputError("'" + scene.surface(*smooth).name + "', a mirror or glass",
+                           std::string("it does not go with ") + (options.bounds ? "--bounds" : "--residual") +
+                               ", which know what is straight ahead alone");
+  return scene;
 }
 
 ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& common, const Run& run) {

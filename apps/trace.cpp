@@ -171,6 +171,7 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   if (!options.estimates.empty()) estimates.emplace(options.estimates);
   const PictureCheckpoint checkpoint(scene, camera, options, common);
   const FirstPass first(scene, {options.integrator}, measure::PathClasses::of(options.paths), options.intersector, run);
+  first.require_solved();
   const montecarlo::Rendering rendering = rendered(scene, camera, options, first, checkpoint, run);
   Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, {}, false};
   if (run.stop.stop_requested()) traced.checkpoint = checkpoint.file();

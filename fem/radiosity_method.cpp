@@ -46,6 +46,9 @@ struct Answer {
   }
 };
 
+/// Beside mirrors, to a side: of a gather at a point, and at each of the points that a pixel's rays see.
+constexpr int rays_at_points = 64, rays_in_pixels = 6;
+
 /// Answers one list, measurement by measurement: everything here is read only.
 class Answers {
  public:
@@ -75,10 +78,10 @@ class Answers {
   std::optional<std::size_t> same_element(const scene::SurfacePatch& patch) const;
   void add_tiles(const scene::SurfacePatch& patch, std::vector<Tile>& tiles) const;
   Estimate arriving_on(std::vector<Tile> tiles, bool plane) const;
-  Answer at(const measure::PointIrradiance& asked) const;
+  Answer at(const measure::PointIrradiance& asked, int side_of_rays = rays_at_points) const;
   Answer by_polynomials(const measure::PointIrradiance& asked) const;
   Answer by_constants(const measure::PointIrradiance& asked) const;
-  Answer by_mirrors(const measure::PointIrradiance& asked) const;
+  Answer by_mirrors(const measure::PointIrradiance& asked, int side) const;
   SpecularChains::End seen(const raycast::Ray& ray) const;
   Answer radiosity_at(std::size_t element, const scene::SurfacePoint& x) const;
 
@@ -242,8 +245,8 @@ Answer Answers::by_constants(const measure::PointIrradiance& asked) const {
 }
 
 /// As by constants, but that each ray tells of what it ends on, by whatever way.
-Answer Answers::by_mirrors(const measure::PointIrradiance& asked) const {
-  const RayGather rays(asked, *chains_, s_.mesh, seed_, key_of(asked));
+Answer Answers::by_mirrors(const measure::PointIrradiance& asked, int side) const {
+  const RayGather rays(asked, *chains_, s_.mesh, seed_, key_of(asked), side);
   Spectrum sizes, from_elements;
   std::vector<Spectrum> of_elements(s_.mesh.patches().size());
   for (const RayGather::Met& met : rays.met()) {
@@ -259,8 +262,8 @@ Answer Answers::by_mirrors(const measure::PointIrradiance& asked) const {
           noise.together()};
 }
 
-Answer Answers::at(const measure::PointIrradiance& asked) const {
-  if (chains_) return by_mirrors(asked);
+Answer Answers::at(const measure::PointIrradiance& asked, int side_of_rays) const {
+  if (chains_) return by_mirrors(asked, side_of_rays);
   return exact_ ? by_polynomials(asked) : by_constants(asked);
 }
 
@@ -278,7 +281,7 @@ Answer Answers::radiosity_at(std::size_t i, const scene::SurfacePoint& x) const 
     return {{s_.field ? s_.field->at(i, x.position) : s_.radiosity[i], Spectrum(),
              rho * s_.irradiance_error[i] + s_.field_error[i], Claim::estimated, 0},
             rho * s_.irradiance_noise[i]};
-  Answer B = at({x.position, s_.mesh.patches()[i].normal(), x.surface});
+  Answer B = at({x.position, s_.mesh.patches()[i].normal(), x.surface}, rays_in_pixels);
   B.by_itself.value = s_.exitance[i] + rho * B.by_itself.value;
   B.by_itself.standard_error *= rho;
   B.by_itself.error_bound *= rho;

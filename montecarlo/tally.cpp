@@ -26,7 +26,7 @@ void Tally::merge(const Tally& other) {
 
 double Tally::share_of_one() const {
   const double all = std::abs(weighed.mean()) * static_cast<double>(weighed.count());
-  return all > 0 ? largest_sample / all : 0;
+  return all > 0 ? std::min(1.0, largest_sample / all) : 0;  // of filters that subtract it may be more than all
 }
 
 Estimate Tally::estimate(const Spectrum& largest) const {

@@ -5,9 +5,8 @@
 namespace interflect::fem {
 
 RayGather::RayGather(const measure::PointIrradiance& at, const SpecularChains& chains, const mesh::ElementMesh& mesh,
-                     std::uint64_t seed, std::uint64_t key) {
-  constexpr int side = 64;
-  rays_ = std::uint64_t{side} * side;
+                     std::uint64_t seed, std::uint64_t key, int side)
+    : rays_(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side)) {
   const double share = 1 / static_cast<double>(rays_);
   const core::Frame frame = core::frame_around(at.normal);
   core::RandomNumbers random(core::derived_seed(seed, "gather by rays"), 0, key);

@@ -11,12 +11,12 @@ namespace interflect::fem {
 ///
 ///   H(x) = (1/n) sum_k w_k B_j(k),   directions with density cos / pi, j(k) where ray k ends and w_k its weight
 ///
-/// Directions are stratified.  The rays are kept, so that any field on the elements may be gathered by them.
+/// Directions are stratified, n = side².  The rays are kept, so that any field on the elements may be gathered by them.
 /// Test: tests/fem/specular/extended_radiosity.cpp
 class RayGather {
  public:
   RayGather(const measure::PointIrradiance& at, const SpecularChains& chains, const mesh::ElementMesh& mesh,
-            std::uint64_t seed, std::uint64_t key);
+            std::uint64_t seed, std::uint64_t key, int side);
 
   struct Met {
     std::size_t element;

@@ -36,15 +36,15 @@ void require_solvable(const scene::Scene& scene, const RadiositySettings& settin
   const auto smooth = any_smooth(scene);
   if (!smooth) return;
   const std::string& surface = scene.surface(*smooth).name;
-  require_rays(surface, settings);
   const auto refuse = [&](const std::string& what) {
     throw core::InputError("'" + surface + "', a mirror or glass", "it does not go with " + what);
   };
-  if (settings.order > 0) refuse("polynomials: --order 0 expected");
+  if (settings.adaptive) refuse("elements made for a goal: no --goal or --target-error expected");
   if (settings.projection != Projection::galerkin) refuse("values at nodes: --projection galerkin expected");
-  if (settings.adaptive) refuse("elements made for a goal");
+  if (settings.order > 0) refuse("polynomials: --order 0 expected");
   if (settings.closure != "none") refuse("a closure that is restored, since it absorbs: --closure none expected");
   if (settings.stored_factors) refuse("view factors of a file");
+  require_rays(surface, settings);
 }
 
 }  // namespace interflect::fem

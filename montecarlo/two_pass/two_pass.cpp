@@ -115,6 +115,9 @@ SamplingSettings sampling_of(const TwoPassSettings& settings) {
 }  // namespace
 
 void require_known_to_two_passes(const scene::Scene& scene, const measure::PathClasses& paths) {
+  if (!scene.lights.empty())
+    throw core::InputError(scene.lights.first_name(),
+                           "two passes know lights that are surfaces; --integrator path does this");
   if (!(paths == measure::PathClasses::all()))
     throw core::InputError("two-pass", "its solution has all paths that are diffuse: --paths 'L.*E' expected");
   for (const scene::SurfaceId id : scene.surface_ids())

@@ -44,6 +44,14 @@ TEST(MtlMaterials, that_radiosity_does_not_know_are_refused_by_name) {
   EXPECT_TRUE(contains(net.err, "'a' is not all there")) << net.err;
   const Outcome mirror = interflect({"solve", floor_of(folder, "Ks 0.9 0.9 0.9\nillum 3\n"), "-o", folder / "mirror"});
   EXPECT_EQ(mirror.status, 0) << mirror.err;
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--bounds"}, {"--residual"}, {"--order", "1"}, {"--goal", "camera:camera-1"}}) {
+    std::vector<std::string> words{"solve", folder / "s.json", "-o", folder / "refused"};
+    words.insert(words.end(), option.begin(), option.end());
+    const Outcome refused = interflect(words);
+    EXPECT_EQ(refused.status, 2) << option[0];
+    EXPECT_TRUE(contains(refused.err, "a mirror or glass: it does not go with")) << refused.err;
+  }
 }
 
 }  // namespace
