@@ -33,7 +33,7 @@ void write_light_groups(const SolvedScene& solved, const std::filesystem::path& 
   for (std::size_t g = 0; g < names.size(); ++g) {
     const fem::RadiositySolution& alone = s.of_groups[g];
     all.groups.push_back({names[g], alone.exitance, alone.radiosity, alone.irradiance, alone.irradiance_error,
-                          alone.irradiance_noise, alone.field_error,
+                          alone.irradiance_noise, alone.field_error, alone.shared_noise,
                           answers_at(solved.points, {alone, *solved.rays}, solved.scene, run)});
   }
   results::write_light_groups(light_group_file(folder), all, solved.scene.channel_count());
@@ -79,6 +79,7 @@ fem::RadiositySolution dimmed(const results::LightGroups& all, const std::vector
     add(s.irradiance_error, factors[g], group.irradiance_error);
     add(s.irradiance_noise, factors[g], group.irradiance_noise);
     add(s.field_error, factors[g], group.field_error);
+    s.shared_noise += factors[g] * group.shared_noise;
   }
   s.coarse_radiosity = s.radiosity;
   return s;

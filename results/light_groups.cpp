@@ -126,6 +126,7 @@ void write_light_groups(const std::filesystem::path& file, const LightGroups& al
       write_spectra(stored, part(g, "error"), group.irradiance_error, channels);
       write_spectra(stored, part(g, "noise"), group.irradiance_noise, channels);
       write_spectra(stored, part(g, "field_error"), group.field_error, channels);
+      write_spectra(stored, part(g, "shared_noise"), {&group.shared_noise, 1}, channels);
       write_points(stored, g, group.at_points, channels);
     }
   });
@@ -150,7 +151,8 @@ LightGroups read_light_groups(const std::filesystem::path& file) {
   for (std::size_t g = 0; g < names.size(); ++g) {
     const auto of = [&](const char* what) { return read_spectra(stored, part(g, what), n, channels); };
     all.groups.push_back({names[g], of("exitance"), of("radiosity"), of("irradiance"), of("error"), of("noise"),
-                          of("field_error"), read_points(stored, g, points, channels)});
+                          of("field_error"), read_spectra(stored, part(g, "shared_noise"), 1, channels).front(),
+                          read_points(stored, g, points, channels)});
   }
   return all;
 }

@@ -15,6 +15,7 @@ struct GroupLight {
   std::string name;
   std::vector<Spectrum> exitance, radiosity, irradiance;
   std::vector<Spectrum> irradiance_error, irradiance_noise, field_error;  ///< as RadiositySolution has them
+  Spectrum shared_noise;
   std::vector<Estimate> at_points;
 };
 
