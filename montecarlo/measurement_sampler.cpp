@@ -15,15 +15,6 @@ constexpr std::uint32_t second_path_block = 1u << 30;  // no path comes that far
 
 std::uint32_t path_block(const scene::FilmMap& film) { return film.has_lens() ? lens_block + 1 : film_block + 1; }
 
-const ReconstructionFilter& box() {
-  static const std::unique_ptr<ReconstructionFilter> filter = make_filter("box");
-  return *filter;
-}
-
-}  // namespace
-
-namespace {
-
 /// Where a sample meets the film, and the lens.
 struct OnFilm {
   double u, v;
@@ -96,12 +87,12 @@ MeasurementSampler::MeasurementSampler(const scene::Scene& scene, const measure:
 
 std::optional<raycast::Ray> MeasurementSampler::ray(core::RandomNumbers& numbers) const {
   const OnFilm at = on_film(*film_, numbers);
-  const auto seen = film_->ray(middle_of(pixel_) + box().sample(at.u, at.v), at.lens);
+  const auto seen = film_->ray(middle_of(pixel_) + box_filter().sample(at.u, at.v), at.lens);
   return seen ? std::optional(raycast::Ray{seen->origin, seen->direction}) : std::nullopt;
 }
 
 Spectrum MeasurementSampler::sample(const PathEstimator& paths, core::RandomNumbers& numbers) const {
-  if (film_) return film_sample(*film_, box(), pixel_, paths, numbers);
+  if (film_) return film_sample(*film_, box_filter(), pixel_, paths, numbers);
   const Receiver at = place_->draw(numbers);
   return scale_ * paths.irradiance(at, numbers, place_->blocks());
 }
@@ -109,7 +100,7 @@ Spectrum MeasurementSampler::sample(const PathEstimator& paths, core::RandomNumb
 void MeasurementSampler::sample(const PathEstimator& paths, const PathEstimator::Keys& keys,
                                 std::span<Spectrum> samples) const {
   if (film_) {
-    film_samples(*film_, box(), pixel_, paths, keys, samples);
+    film_samples(*film_, box_filter(), pixel_, paths, keys, samples);
     return;
   }
   std::vector<Receiver> at;

@@ -6,11 +6,6 @@
 namespace interflect::montecarlo {
 namespace {
 
-const ReconstructionFilter& box() {
-  static const std::unique_ptr<ReconstructionFilter> filter = make_filter("box");
-  return *filter;
-}
-
 SplatTargets::Film film_of(const scene::Camera& camera, const ReconstructionFilter& filter) {
   const auto pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   return {scene::FilmMap(camera), camera.width, camera.height,
@@ -28,7 +23,7 @@ SplatTargets::SplatTargets(const scene::Scene& scene, std::span<const measure::M
     if (!pixel) continue;
     const scene::Camera& camera = scene.camera(pixel->camera);
     const auto [at, is_new] = of_camera.try_emplace(pixel->camera.value, films_.size());
-    if (is_new) films_.push_back(film_of(camera, box()));
+    if (is_new) films_.push_back(film_of(camera, box_filter()));
     Film& film = films_[at->second];
     std::uint32_t& of_pixel =
         film.measurement[static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(film.width) +

@@ -142,4 +142,9 @@ std::unique_ptr<ReconstructionFilter> make_filter(const std::string& name) {
   throw core::InputError("filter '" + name + "'", "one of " + known + " expected");
 }
 
+const ReconstructionFilter& box_filter() {
+  static const std::unique_ptr<ReconstructionFilter> filter = make_filter("box");
+  return *filter;
+}
+
 }  // namespace interflect::montecarlo

@@ -41,5 +41,7 @@ const std::vector<FilterEntry>& known_filters();
 std::vector<std::string> filter_names();
 /// @throws core::InputError  with the names known
 std::unique_ptr<ReconstructionFilter> make_filter(const std::string& name);
+/// The one of pixels that are measured: each its own square.
+const ReconstructionFilter& box_filter();
 
 }  // namespace interflect::montecarlo

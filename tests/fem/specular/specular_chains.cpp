@@ -145,6 +145,22 @@ TEST(SpecularChains, are_reciprocal_through_glass) {
   EXPECT_LT(std::hypot(there.standard_error, back.standard_error), .02 * there.K);
 }
 
+constexpr int chains_drawn = 40000;
+
+/// Of chains along rays that `draw` draws, the mean weight of those that end on that surface.
+template <class Draw>
+Spectrum mean_weight(const scene::Scene& scene, const std::string& surface, const Draw& draw) {
+  const auto rays = raycast::make_ray_caster("brute", scene);
+  const SpecularChains chains(scene, *rays, 1);
+  Spectrum sum;
+  core::RandomNumbers random(3, 0, 0);
+  for (int k = 0; k < chains_drawn; ++k) {
+    const SpecularChains::End end = chains.follow(draw(random));
+    if (end.at && scene.surface(end.at->surface).name == surface) sum += end.weight / double{chains_drawn};
+  }
+  return sum;
+}
+
 // Weights of coloured chains are what chance did not take, in the mean: R of each channel.
 TEST(SpecularChains, carry_colours) {
   scene::SceneBuilder builder({"a", "b"}, scene::Quantity::radiometric);
@@ -153,21 +169,12 @@ TEST(SpecularChains, carry_colours) {
                       builder.add_material(of_finish(scene::Mirror{both(.9, .3)})));
   const scene::Scene scene = builder.finish();
   EXPECT_FALSE(are_smooth_ones_grey(scene));
-  const auto rays = raycast::make_ray_caster("brute", scene);
-  const SpecularChains chains(scene, *rays, 1);
-  Spectrum sum;
-  constexpr int n = 40000;
-  core::RandomNumbers random(3, 0, 0);
-  for (int k = 0; k < n; ++k) {
-    const Vec3 way = Vec3(random.next() - .5, random.next() - .5, 1).normalized();
-    const SpecularChains::End end = chains.follow({Vec3(0, 0, .5), way});
-    if (!end.weight.is_zero()) {
-      EXPECT_EQ(scene.surface(end.at->surface).name, "floor");
-    }
-    sum += end.weight / double{n};
-  }
-  EXPECT_NEAR(sum[0], .9, 4 * std::sqrt(.09 / n));
-  EXPECT_NEAR(sum[1], .3, 4 * std::sqrt(.01 / n));
+  const Spectrum mean = mean_weight(scene, "floor", [](core::RandomNumbers& random) {
+    const double across = random.next() - .5, along = random.next() - .5;
+    return raycast::Ray{Vec3(0, 0, .5), Vec3(across, along, 1).normalized()};
+  });
+  EXPECT_NEAR(mean[0], .9, 4 * std::sqrt(.09 / chains_drawn));
+  EXPECT_NEAR(mean[1], .3, 4 * std::sqrt(.01 / chains_drawn));
 }
 
 // The same of what passes: T of each channel, at right angles.
@@ -177,18 +184,12 @@ TEST(SpecularChains, carry_colours_through_panes) {
                       builder.add_material(test::diffuse(.5)));
   builder.add_polygon("pane", parallelogram(Vec3(-9, -9, 1), 18 * y, 18 * x),
                       builder.add_material(of_finish(scene::Pane{both(.8, .3)})));
-  const scene::Scene scene = builder.finish();
-  const auto rays = raycast::make_ray_caster("brute", scene);
-  const SpecularChains chains(scene, *rays, 1);
-  Spectrum sum;
-  constexpr int n = 40000;
-  core::RandomNumbers random(3, 0, 0);
-  for (int k = 0; k < n; ++k) {
-    const SpecularChains::End end = chains.follow({Vec3(random.next(), random.next(), .5), z});
-    if (end.at && scene.surface(end.at->surface).name == "ceiling") sum += end.weight / double{n};
-  }
-  EXPECT_NEAR(sum[0], .8, 4 * std::sqrt(.16 / n));
-  EXPECT_NEAR(sum[1], .3, 4 * std::sqrt(.07 / n));
+  const Spectrum mean = mean_weight(builder.finish(), "ceiling", [](core::RandomNumbers& random) {
+    const double across = random.next(), along = random.next();
+    return raycast::Ray{Vec3(across, along, .5), z};
+  });
+  EXPECT_NEAR(mean[0], .8, 4 * std::sqrt(.16 / chains_drawn));
+  EXPECT_NEAR(mean[1], .3, 4 * std::sqrt(.07 / chains_drawn));
 }
 
 // A pair is seen twice, an element by itself once.
