@@ -55,8 +55,9 @@ void RayTransitions::from_elements(std::span<const Index> from, std::span<const 
     ways.find();
     for (std::size_t k = 0; k < n; ++k) {
       const Sender& sender = senders_[static_cast<std::size_t>(from[first + k])];
-      rays[k] = {sender.map(u[4 * (first + k)], u[4 * (first + k) + 1]),
-                 sender.frame.to_world(ways[static_cast<Index>(k)]), sender.frame.n};
+      rays[k].origin = sender.map(u[4 * (first + k)], u[4 * (first + k) + 1]);
+      rays[k].direction = sender.frame.to_world(ways[static_cast<Index>(k)]);
+      rays[k].leaves = sender.frame.n;
     }
     rays_.closest_each(std::span(rays).first(n), hits);
     locate_(std::span(hits).first(n), arrived.subspan(first, n));

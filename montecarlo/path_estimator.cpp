@@ -39,7 +39,7 @@ Spectrum PathEstimator::radiance(const Vec3& eye, const Vec3& direction, core::R
                                  std::uint32_t block) const {
   Carried path = from_eye();
   const Drawn drawn{{eye, direction}, {eye, Vec3::Zero()}, 0};
-  if (const auto at = arrive(drawn, sight_.caster().closest(drawn.ray), path)) follow(*at, path, numbers, block);
+  if (Vertex at{}; arrive(drawn, sight_.caster().closest(drawn.ray), path, at)) follow(at, path, numbers, block);
   return path.found;
 }
 
@@ -55,19 +55,17 @@ void PathEstimator::follow(Vertex at, Carried& path, core::RandomNumbers& number
     if (const auto light = from_lights(at, path, place, drawn_here.pick, drawn_here.on_u, drawn_here.on_v))
       path.found += path.throughput * (sight_.let_pass(light->segment, light->of) * light->light);
     if (!goes_on(at, place, drawn_here, path, drawn)) return;
-    const std::optional<Vertex> next = arrive(drawn, sight_.caster().closest(drawn.ray), path);
-    if (!next) return;
-    at = *next;
+    if (!arrive(drawn, sight_.caster().closest(drawn.ray), path, at)) return;
   }
 }
 
-bool PathEstimator::goes_on(const Vertex& at, const Place& place, const Numbers& numbers, Carried& path,
-                            Drawn& drawn) const {
+bool PathEstimator::goes_on(const Vertex& at, const Place& place, const Numbers& numbers, Carried& path, Drawn& drawn,
+                            bool for_sure) const {
   const auto on = at.bsdf->sample(at.to_eye, {numbers.lobe, numbers.u, numbers.v}, Walk::from_eye);
   if (!on) return false;
   path.throughput *= on->weight;
   path.squeezed *= on->squeezed;
-  const double survives = going_on(path.throughput.max() / path.squeezed);
+  const double survives = for_sure ? 1 : going_on(path.throughput.max() / path.squeezed);
   if (!(numbers.survival < survives)) return false;
   path.throughput /= survives;
   drawn.ray = {at.position, at.frame.to_world(on->way), normal_towards(at.frame.n, on->way.z())};
@@ -79,24 +77,28 @@ bool PathEstimator::goes_on(const Vertex& at, const Place& place, const Numbers&
 
 /// Finds what shines there.
 /// @param hit  the surface that the ray meets
-/// @return     nothing where no path goes on
-std::optional<PathEstimator::Vertex> PathEstimator::arrive(const Drawn& drawn,
-                                                           const std::optional<scene::SurfacePoint>& hit,
-                                                           Carried& path) const {
+/// @param at   where it scatters there
+/// @return     whether a path goes on
+bool PathEstimator::arrive(const Drawn& drawn, const std::optional<scene::SurfacePoint>& hit, Carried& path,
+                           Vertex& at) const {
   if (const auto ball = sight_.ball_before(drawn.ray, hit)) {
     if (ends_at(path, measure::PathLetter::area))
       path.found += path.throughput * shines(lights_.of_ball(ball->ball), drawn, ball->position);
-    return std::nullopt;
+    return false;
   }
   if (!hit) {
     path.found += path.throughput * escaped(drawn, path);
-    return std::nullopt;
+    return false;
   }
   path.found += path.throughput * emitted(drawn, path, *hit);
   const Bsdf* bsdf = optics_.bsdf(hit->surface);
-  if (bsdf == nullptr) return std::nullopt;
-  const Frame frame = frame_around(front_normal(*hit));
-  return Vertex{hit->position, frame, frame.to_local(-drawn.ray.direction), bsdf};
+  if (bsdf == nullptr) return false;
+  at.position = hit->position;
+  at.frame = frame_around(front_normal(*hit));
+  at.to_eye = at.frame.to_local(-drawn.ray.direction);
+  at.bsdf = bsdf;
+  at.receives = false;
+  return true;
 }
 
 Place PathEstimator::place_of(const Vertex& at) {

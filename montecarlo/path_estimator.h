@@ -67,6 +67,7 @@ class PathEstimator {
   Spectrum largest_score() const { return 2 * lights_.largest_find(); }
 
  private:
+  friend class ControlledPaths;  ///< the same steps, and a solution where paths end
   /// Where a path scatters.
   struct Vertex {
     Vec3 position;
@@ -116,8 +117,10 @@ class PathEstimator {
   static Place place_of(const Vertex& at);
   std::optional<Candidate> from_lights(const Vertex& at, const Carried& path, const Place& place, double pick, double u,
                                        double v) const;
-  bool goes_on(const Vertex& at, const Place& place, const Numbers& numbers, Carried& path, Drawn& drawn) const;
-  std::optional<Vertex> arrive(const Drawn& drawn, const std::optional<scene::SurfacePoint>& hit, Carried& path) const;
+  /// @param for_sure  the roulette was played before
+  bool goes_on(const Vertex& at, const Place& place, const Numbers& numbers, Carried& path, Drawn& drawn,
+               bool for_sure = false) const;
+  bool arrive(const Drawn& drawn, const std::optional<scene::SurfacePoint>& hit, Carried& path, Vertex& at) const;
   Spectrum emitted(const Drawn& drawn, const Carried& path, const scene::SurfacePoint& hit) const;
   Spectrum escaped(const Drawn& drawn, const Carried& path) const;
   Spectrum shines(std::uint32_t light, const Drawn& drawn, const Vec3& from) const;

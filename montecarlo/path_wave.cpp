@@ -123,10 +123,7 @@ class PathEstimator::Wave {
     std::size_t kept = 0;
     for (std::size_t j = 0; j < live_.size(); ++j) {
       Path& path = paths_[live_[j]];
-      const auto next = of_.arrive(path.drawn, met_[j], path.carried);
-      if (!next) continue;
-      path.at = *next;
-      live_[kept++] = live_[j];
+      if (of_.arrive(path.drawn, met_[j], path.carried, path.at)) live_[kept++] = live_[j];
     }
     live_.resize(kept);
   }

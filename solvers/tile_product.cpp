@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/wide_vectors.h"
 #include "solvers/tile_kernels.h"
 
 namespace interflect::solvers {
@@ -10,20 +11,12 @@ namespace {
 
 constexpr Index most_columns = 4;  // that a kernel takes
 
-#ifdef INTERFLECT_WIDE_TILES
-/// Whether what is compiled for x86-64-v4 runs here.
-bool has_wide_vectors() {
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-}
-#endif
-
 /// One column is read at the speed of memory with vectors of any width, and faster with short ones; more columns are
 /// more than short vectors can multiply in that time, and so are two tiles.  Same bits with both.
 TileKernels best_kernels() {
   TileKernels kernels = tile_kernels();
 #ifdef INTERFLECT_WIDE_TILES
-  if (!has_wide_vectors()) return kernels;
+  if (!core::has_wide_vectors()) return kernels;
   const TileKernels wide = wide_tile_kernels();
   std::copy(wide.begin() + 1, wide.end(), kernels.begin() + 1);
   constexpr auto two_tiles = static_cast<std::size_t>(TileWork::two_tiles);

@@ -50,7 +50,7 @@ ElementLocator::Guess ElementLocator::guess(const scene::SurfacePoint& point) co
   const Part& part = parts_[static_cast<std::size_t>(part_of_[at])];
   if (!part.outlines.flat()) return {&part};
   const Eigen::Vector2f x = part.outlines.at(point.position);
-  return {&part, part.outlines.likely(x), x};
+  return {&part, &part.outlines.likely(x), x};
 }
 
 /// The first of some that surely holds the point.  Inlined: it is asked of every ray, and mostly answers at once.
@@ -64,7 +64,7 @@ ElementLocator::Guess ElementLocator::guess(const scene::SurfacePoint& point) co
 
 Index ElementLocator::by(const Guess& guess, const scene::SurfacePoint& point) const {
   if (guess.part == nullptr) return none;
-  const Index likely = sure_among(guess, guess.items);
+  const Index likely = guess.items != nullptr ? sure_among(guess, *guess.items) : none;
   return likely != none ? likely : among_near(guess, point);
 }
 
@@ -104,8 +104,10 @@ void ElementLocator::operator()(std::span<const std::optional<scene::SurfacePoin
     const auto some = points.subspan(first, std::min(at_once, points.size() - first));
     for (std::size_t k = 0; k < some.size(); ++k) {
       of[k] = some[k] ? guess(*some[k]) : Guess{};
-      if (of[k].items[0] != PlaneOutlines::none) of[k].part->outlines.prefetch(of[k].items[0]);
+      if (of[k].items != nullptr) __builtin_prefetch(of[k].items);
     }
+    for (std::size_t k = 0; k < some.size(); ++k)
+      if (of[k].items != nullptr) of[k].part->outlines.prefetch(of[k].items->front());
     for (std::size_t k = 0; k < some.size(); ++k) elements[first + k] = some[k] ? by(of[k], *some[k]) : none;
   }
 }

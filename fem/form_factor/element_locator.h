@@ -39,7 +39,7 @@ class ElementLocator {
   /// The elements that likely hold a point, where that can be told in the plane of all.
   struct Guess {
     const Part* part = nullptr;  ///< null: the side has no elements
-    PlaneOutlines::Likely items{PlaneOutlines::none, PlaneOutlines::none};
+    const PlaneOutlines::Likely* items = nullptr;
     Eigen::Vector2f in_plane = Eigen::Vector2f::Zero();
   };
   /// The planes through an element and, across it, through its edges.

@@ -37,8 +37,10 @@ class PlaneOutlines {
     const Outline& o = outlines_[item];
     return (o.s * x.x() + o.t * x.y() - o.offset).minCoeff() > margin_;
   }
-  /// Has the processor begin to fetch what surely_holds reads.
-  void prefetch(std::uint32_t item) const { __builtin_prefetch(&outlines_[item]); }
+  /// Has the processor begin to fetch what surely_holds reads, where that is there.
+  void prefetch(std::uint32_t item) const {
+    if (item != none) __builtin_prefetch(&outlines_[item]);
+  }
 
  private:
   /// Unit vectors into the element, across its edges; what is not an edge has all points inside.
