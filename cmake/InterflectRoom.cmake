@@ -67,3 +67,16 @@ function(interflect_room room)
   interflect_precompile(interflect_${room})
   set_property(GLOBAL APPEND PROPERTY INTERFLECT_ROOMS ${room})
 endfunction()
+
+# interflect_wide_source(<folder> <source> <definition> [<option> ...]): a file that is compiled for processors with vectors
+# of 64 bytes, which the room asks for at run time (core/wide_vectors.h) where <definition> says that the file is there.
+# Always optimised, so that no inline function of it is left for others to call.
+function(interflect_wide_source room source definition)
+  if(NOT (INTERFLECT_ARCH STREQUAL "x86-64-v3" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64"))
+    return()
+  endif()
+  target_sources(interflect_${room} PRIVATE ${source})
+  target_compile_definitions(interflect_${room} PRIVATE ${definition})
+  set_source_files_properties(${source} PROPERTIES
+    COMPILE_OPTIONS "-march=x86-64-v4;-mprefer-vector-width=512;-O3;${ARGN}" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()

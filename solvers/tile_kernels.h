@@ -48,10 +48,10 @@ struct Lanes {
 }
 
 /// How many rows of C columns fit in registers.
-template <int C>
+template <int C, TileWork work>
 constexpr int rows_in_registers() {
 #ifdef __AVX512F__
-  return C <= 3 ? 4 : 2;
+  return C <= (work == TileWork::two_tiles ? 2 : 3) ? 4 : 2;
 #else
   return C == 1 ? 4 : C == 2 ? 2 : 1;
 #endif
@@ -111,7 +111,7 @@ template <int C, int R, TileWork work>
 
 template <int C, TileWork work>
 void product(const TileRows& of) {
-  constexpr int R = rows_in_registers<C>();
+  constexpr int R = rows_in_registers<C, work>();
   const Index rows = of.rows, tiles = of.tiles;
   for (Index t = 0; t < tiles; ++t)
     for (Index row = 0; row < rows; row += R) rows_product<C, R, work>(of, t, row);
