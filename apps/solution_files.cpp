@@ -13,6 +13,7 @@
 #include "core/format.h"
 #include "core/memory.h"
 #include "fem/error_summary.h"
+#include "mesh/bare_patches.h"
 #include "photometry/sensor_summary.h"
 #include "results/vtu.h"
 #ifdef INTERFLECT_WITH_VTK
@@ -51,7 +52,7 @@ void add_bounds(const fem::Enclosure& enclosure, const std::vector<std::string>&
   add("mean_irradiance", enclosure.mean_irradiance());
 }
 
-std::vector<results::CellField> fields_of(const SolvedScene& solved) {
+std::vector<results::CellField> fields_of(const SolvedScene& solved, results::BarePatches bare) {
   const RadiositySolution& s = solved.solution;
   const auto& channels = solved.scene.channels;
   std::vector<results::CellField> fields{
@@ -66,7 +67,7 @@ std::vector<results::CellField> fields_of(const SolvedScene& solved) {
   if (!s.row_sum.empty()) fields.push_back(results::scalar_field("row_sum", s.row_sum));
   if (solved.bounds) add_bounds(solved.bounds->enclosure, channels, fields);
   if (solved.residual) fields.push_back(results::spectrum_field("residual", solved.residual->of_elements, channels));
-  for (results::CellField& ids : results::id_fields(s.mesh)) fields.push_back(std::move(ids));
+  for (results::CellField& ids : results::id_fields(s.mesh, bare)) fields.push_back(std::move(ids));
   return fields;
 }
 
@@ -253,7 +254,8 @@ void write_field(const SolvedScene& solved, const std::filesystem::path& folder,
   if (!solved.bounds || !pictures) not_written.emplace_back("bounds");
   if (!pictures) not_written.insert(not_written.end(), {"radiosity", "irradiance"});
   remove_leftovers(folder, not_written);
-  results::write_vtu(folder / "solution.vtu", s.mesh, fields_of(solved));
+  const std::vector<scene::SurfacePatch> bare = mesh::bare_patches(solved.scene, s.mesh);
+  results::write_vtu(folder / "solution.vtu", s.mesh, fields_of(solved, bare), bare);
   if (field) write_smooth_field(folder / "solution_smooth.vtu", *field, solved.scene);
 #ifdef INTERFLECT_WITH_VTK
   if (pictures) write_field_pictures(solved, field ? &*field : nullptr, folder);

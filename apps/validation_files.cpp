@@ -5,6 +5,7 @@
 #include "apps/solution_files.h"
 #include "apps/table.h"
 #include "core/format.h"
+#include "mesh/bare_patches.h"
 #include "results/certificate_record.h"
 #include "results/tables.h"
 #include "results/vtu.h"
@@ -55,8 +56,9 @@ void write_field(const SolvedScene& solved, std::span<const Judged> judged, cons
                                          results::scalar_field("error_bound_fem", bound),
                                          results::scalar_field("relative_difference", relative),
                                          results::scalar_field("z", z)};
-  for (results::CellField& ids : results::id_fields(solved.solution.mesh)) fields.push_back(std::move(ids));
-  results::write_vtu(file, solved.solution.mesh, fields);
+  const std::vector<scene::SurfacePatch> bare = mesh::bare_patches(scene, solved.solution.mesh);
+  for (results::CellField& ids : results::id_fields(solved.solution.mesh, bare)) fields.push_back(std::move(ids));
+  results::write_vtu(file, solved.solution.mesh, fields, bare);
 }
 
 std::string interval_text(const validation::Interval& i) {

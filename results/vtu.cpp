@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "core/error.h"
@@ -24,21 +25,25 @@ struct Grid {
   std::vector<std::uint8_t> types;
 };
 
-Grid grid_of(const mesh::ElementMesh& mesh) {
-  Grid grid;
-  for (const mesh::ElementMesh::Part& part : mesh.parts()) {
-    std::map<std::array<double, 3>, std::int64_t> known;
-    for (const scene::SurfacePatch& patch : mesh.patches().subspan(part.first, part.count)) {
-      for (const Vec3& p : patch.ring()) {
-        const auto next = static_cast<std::int64_t>(grid.points.size() / 3);
-        const auto [at, fresh] = known.try_emplace({p.x(), p.y(), p.z()}, next);
-        if (fresh) grid.points.insert(grid.points.end(), {p.x(), p.y(), p.z()});
-        grid.connectivity.push_back(at->second);
-      }
-      grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
-      grid.types.push_back(patch.corners == 3 ? vtk_triangle : vtk_quad);
+/// Corners that these patches share are written once.
+void append(Grid& grid, std::span<const scene::SurfacePatch> patches) {
+  std::map<std::array<double, 3>, std::int64_t> known;
+  for (const scene::SurfacePatch& patch : patches) {
+    for (const Vec3& p : patch.ring()) {
+      const auto next = static_cast<std::int64_t>(grid.points.size() / 3);
+      const auto [at, fresh] = known.try_emplace({p.x(), p.y(), p.z()}, next);
+      if (fresh) grid.points.insert(grid.points.end(), {p.x(), p.y(), p.z()});
+      grid.connectivity.push_back(at->second);
     }
+    grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+    grid.types.push_back(patch.corners == 3 ? vtk_triangle : vtk_quad);
   }
+}
+
+Grid grid_of(const mesh::ElementMesh& mesh, BarePatches bare) {
+  Grid grid;
+  for (const mesh::ElementMesh::Part& part : mesh.parts()) append(grid, mesh.patches().subspan(part.first, part.count));
+  append(grid, bare);
   return grid;
 }
 
@@ -110,19 +115,30 @@ void append_array(std::string& out, const std::string& name, const std::vector<T
   out += " format=\"binary\">\n" + base64(bytes) + "\n</DataArray>\n";
 }
 
-void append_field(std::string& out, const CellField& field, std::size_t count) {
+template <class T>
+constexpr T no_value = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
+
+/// @param count  of cells or points; the last `bare` of these may have no value
+void append_field(std::string& out, const CellField& field, std::size_t count, std::size_t bare = 0) {
+  const auto components = static_cast<std::size_t>(field.components);
+  const bool named = field.component_names.empty() || field.component_names.size() == components;
   std::visit(
-      [&](const auto& values) {
-        const auto components = static_cast<std::size_t>(field.components);
-        if (field.components < 1 || values.size() != count * components ||
-            (!field.component_names.empty() && field.component_names.size() != components))
+      [&]<class T>(const std::vector<T>& values) {
+        const bool of_all = values.size() == count * components,
+                   of_elements = values.size() == (count - bare) * components;
+        if (field.components < 1 || !named || !(of_all || of_elements))
           throw core::PreconditionError("vtu: field " + field.name + " does not fit the mesh");
-        append_array(out, field.name, values, field.components, field.component_names);
+        if (of_all) return append_array(out, field.name, values, field.components, field.component_names);
+        std::vector<T> padded = values;
+        padded.resize(count * components, no_value<T>);
+        append_array(out, field.name, padded, field.components, field.component_names);
       },
       field.values);
 }
 
-std::string text_of(const Grid& grid, std::span<const CellField> of_cells, std::span<const CellField> of_points) {
+/// @param bare  how many of the cells, the last ones, have no elements
+std::string text_of(const Grid& grid, std::span<const CellField> of_cells, std::span<const CellField> of_points,
+                    std::size_t bare = 0) {
   const std::size_t cells = grid.types.size(), points = grid.points.size() / 3;
   std::string out =
       "<?xml version=\"1.0\"?>\n"
@@ -135,7 +151,7 @@ std::string text_of(const Grid& grid, std::span<const CellField> of_cells, std::
   append_array(out, "offsets", grid.offsets, 1);
   append_array(out, "types", grid.types, 1);
   out += "</Cells>\n<CellData>\n";
-  for (const CellField& field : of_cells) append_field(out, field, cells);
+  for (const CellField& field : of_cells) append_field(out, field, cells, bare);
   out += "</CellData>\n";
   if (!of_points.empty()) out += "<PointData>\n";
   for (const CellField& field : of_points) append_field(out, field, points);
@@ -170,20 +186,22 @@ CellField spectrum_field(std::string name, std::span<const Spectrum> values, con
   return {std::move(name), std::move(flat), components, components > 1 ? channels : std::vector<std::string>{}};
 }
 
-std::vector<CellField> id_fields(const mesh::ElementMesh& mesh) {
+std::vector<CellField> id_fields(const mesh::ElementMesh& mesh, BarePatches bare) {
   std::vector<std::int64_t> element;
   std::vector<std::int32_t> surface, side;
-  for (const scene::SurfacePatch& patch : mesh.patches()) {
-    element.push_back(static_cast<std::int64_t>(element.size()));
+  const auto add = [&](const scene::SurfacePatch& patch, std::int64_t number) {
+    element.push_back(number);
     surface.push_back(static_cast<std::int32_t>(patch.surface.value));
     side.push_back(patch.side == scene::Side::back ? 1 : 0);
-  }
+  };
+  for (const scene::SurfacePatch& patch : mesh.patches()) add(patch, static_cast<std::int64_t>(element.size()));
+  for (const scene::SurfacePatch& patch : bare) add(patch, no_value<std::int64_t>);
   return {
       {"element", std::move(element), 1, {}}, {"surface", std::move(surface), 1, {}}, {"side", std::move(side), 1, {}}};
 }
 
-std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields) {
-  return text_of(grid_of(mesh), fields, {});
+std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields, BarePatches bare) {
+  return text_of(grid_of(mesh, bare), fields, {}, bare.size());
 }
 
 std::string vtu_text(const mesh::SmoothMesh& mesh, std::span<const CellField> of_points) {
@@ -192,8 +210,9 @@ std::string vtu_text(const mesh::SmoothMesh& mesh, std::span<const CellField> of
   return text_of(grid_of(mesh), {&of_cells, 1}, of_points);
 }
 
-void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields) {
-  write_atomically(file, vtu_text(mesh, fields));
+void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields,
+               BarePatches bare) {
+  write_atomically(file, vtu_text(mesh, fields, bare));
 }
 void write_vtu(const std::filesystem::path& file, const mesh::SmoothMesh& mesh, std::span<const CellField> of_points) {
   write_atomically(file, vtu_text(mesh, of_points));

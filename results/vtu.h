@@ -27,14 +27,19 @@ struct CellField {
 CellField scalar_field(std::string name, std::vector<double> values);
 /// One component per channel, under the channels' names; a plain scalar where there is one channel.
 CellField spectrum_field(std::string name, std::span<const Spectrum> values, const std::vector<std::string>& channels);
-/// element (0 ..), surface (position in the scene) and side (0 front, 1 back).
-std::vector<CellField> id_fields(const mesh::ElementMesh& mesh);
+/// What has no elements and is written behind them (mesh/bare_patches.h).
+using BarePatches = std::span<const scene::SurfacePatch>;
+/// element (0 .., and -1 of what has none), surface (position in the scene) and side (0 front, 1 back).
+std::vector<CellField> id_fields(const mesh::ElementMesh& mesh, BarePatches bare = {});
 
 /// A mesh of triangles and quads with cell data as VTK's XML UnstructuredGrid (version 1.0, little-endian, base64), for
 /// ParaView and everything else that reads VTK.  Corners that elements of one side of a surface share are written once.
-/// @throws core::PreconditionError  if a field's size is not elements x components
-std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields);
-void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields);
+/// @param bare  cells behind those of the elements.  A field of elements alone is NaN there, which ParaView shows in its
+///              NaN colour, and one of integers -1
+/// @throws core::PreconditionError  if a field's size is neither elements nor cells, times components
+std::string vtu_text(const mesh::ElementMesh& mesh, std::span<const CellField> fields, BarePatches bare = {});
+void write_vtu(const std::filesystem::path& file, const mesh::ElementMesh& mesh, std::span<const CellField> fields,
+               BarePatches bare = {});
 
 /// A smooth mesh as VTK's quadratic triangles with data at points, and the element of each.
 std::string vtu_text(const mesh::SmoothMesh& mesh, std::span<const CellField> of_points);

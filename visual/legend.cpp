@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "visual/hatching.h"
 #include "visual/text.h"
 
 namespace interflect::visual {
@@ -75,10 +76,25 @@ void draw_bar(core::Image& canvas, const Legend& legend, const Measured& m, int 
   }
 }
 
+int size_of_type(const core::Image& picture) { return std::clamp(picture.height / 34, 13, 60); }
+
+core::Image white_canvas(int width, int height) {
+  core::Image canvas(width, height, {"R", "G", "B"});
+  std::fill(canvas.data.begin(), canvas.data.end(), 1.0F);
+  return canvas;
+}
+
+void paste(const core::Image& picture, core::Image& canvas, int left, int top) {
+  for (int y = 0; y < picture.height; ++y)
+    std::copy_n(picture.data.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)),
+                picture.offset(picture.width, 0),
+                canvas.data.begin() + static_cast<std::ptrdiff_t>(canvas.offset(left, top + y)));
+}
+
 }  // namespace
 
 core::Image framed(const core::Image& picture, const std::string& caption, const Legend* legend, int* left, int* top) {
-  const int size = std::clamp(picture.height / 34, 13, 60), margin = size;
+  const int size = size_of_type(picture), margin = size;
   const TextLine title = set_in_type(caption, size + size / 6, true);
   const int head = title.empty() ? margin : margin + 2 * size;
   const Measured m = legend != nullptr ? measured(*legend, size) : Measured{};
@@ -86,12 +102,8 @@ core::Image framed(const core::Image& picture, const std::string& caption, const
   const int strip = legend != nullptr ? margin + m.width(gap) : 0;
 
   const int width = margin + std::max(picture.width + strip, title.width) + margin;
-  core::Image canvas(width, head + picture.height + margin, {"R", "G", "B"});
-  std::fill(canvas.data.begin(), canvas.data.end(), 1.0F);
-  for (int y = 0; y < picture.height; ++y)
-    std::copy_n(picture.data.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)),
-                picture.offset(picture.width, 0),
-                canvas.data.begin() + static_cast<std::ptrdiff_t>(canvas.offset(margin, head + y)));
+  core::Image canvas = white_canvas(width, head + picture.height + margin);
+  paste(picture, canvas, margin, head);
   draw_text(canvas, title, margin, margin + size + size / 8, ink);
   if (legend != nullptr) {
     const int x = margin + picture.width + margin;
@@ -101,6 +113,22 @@ core::Image framed(const core::Image& picture, const std::string& caption, const
   }
   if (left != nullptr) *left = margin;
   if (top != nullptr) *top = head;
+  return canvas;
+}
+
+core::Image noted(const core::Image& picture, const std::string& note) {
+  const int size = size_of_type(picture), gap = size / 2;
+  const TextLine line = set_in_type(note, size);
+  core::Image canvas =
+      white_canvas(std::max(picture.width, 4 * gap + 2 * size + line.width), picture.height + 2 * size);
+  paste(picture, canvas, 0, 0);
+  const int left = gap, top = picture.height + gap, rim = std::max(1, size / 16);
+  fill(canvas, left - rim, top - rim, 2 * size + 2 * rim, size + 2 * rim, faint);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < 2 * size; ++x)
+      fill(canvas, left + x, top + y, 1, 1,
+           hatching::on_stripe(x, y, std::max(4, size / 3)) ? hatching::stripe : hatching::ground);
+  draw_text(canvas, line, left + 2 * size + gap, top + size - size / 8, ink);
   return canvas;
 }
 

@@ -23,4 +23,8 @@ struct Legend {
 core::Image framed(const core::Image& picture, const std::string& caption, const Legend* legend, int* left = nullptr,
                    int* top = nullptr);
 
+/// The picture, its pixels where they were, with a line below it: a hatched square (hatching.h) and what that means.  Wide
+/// enough for the line.
+core::Image noted(const core::Image& picture, const std::string& note);
+
 }  // namespace interflect::visual

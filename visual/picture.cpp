@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "results/tone_mapping.h"
+#include "visual/bare_surfaces.h"
 #include "visual/faces.h"
 #include "visual/legend.h"
 #include "visual/raster.h"
@@ -57,30 +58,44 @@ std::vector<std::uint32_t> faces_of_polygons(const scene::Scene& scene, const me
   return out;
 }
 
-/// Where one looks from, and what is behind everything.
-void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh& mesh,
+/// Where one looks from, what is behind everything, and what is there without elements.
+void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh& mesh, BareSurfaces& bare,
               const std::optional<scene::Camera>& camera, int width, int height, results::Colour backs,
               results::Colour behind) {
   raster.camera = camera ? *camera : outside_view(scene, width, height);
   raster.background = behind;
-  if (camera) append(raster.fronts, black_backs(scene, mesh, backs));
+  for (std::uint32_t& face : raster.faces) face += bare.faces;
+  if (camera)
+    for (const std::span<const scene::SurfacePatch> patches :
+         {mesh.patches(), std::span<const scene::SurfacePatch>(bare.patches)})
+      append(raster.fronts, black_backs(scene, patches, backs));
   raster.faces.resize(raster.fronts.sizes.size(), Samples::back);
+  raster.bare = std::move(bare.opaque);
+  raster.clear = std::move(bare.clear);
+  raster.hatched = bare.faces;
 }
 
 core::Image false_coloured(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
                            Raster raster, const Legend& legend, const FalseColour& options) {
   raster.edges = options.edges;
   raster.outlines = options.outlines;
-  set_view(raster, scene, mesh, options.camera, options.width, options.height, dark_back,
+  BareSurfaces bare = bare_surfaces(scene, mesh);
+  set_view(raster, scene, mesh, bare, options.camera, options.width, options.height, dark_back,
            options.map == results::ColourMap::blue_white_red ? pale : white);
-  return framed(rasterised(display, raster), options.caption, &legend);
+  bool any_hatched = false;
+  const core::Image picture = framed(rasterised(display, raster, &any_hatched), options.caption, &legend);
+  return any_hatched ? noted(picture, note_of(bare)) : picture;
 }
 
 core::Image true_coloured(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
                           Raster raster, const TrueColour& options) {
-  set_view(raster, scene, mesh, options.camera, options.width, options.height, black, options.camera ? black : white);
-  const core::Image picture = rasterised(display, raster);
-  return options.caption.empty() ? picture : framed(picture, options.caption, nullptr);
+  BareSurfaces bare = bare_surfaces(scene, mesh);
+  set_view(raster, scene, mesh, bare, options.camera, options.width, options.height, black,
+           options.camera ? black : white);
+  bool any_hatched = false;
+  core::Image picture = rasterised(display, raster, &any_hatched);
+  if (!options.caption.empty()) picture = framed(picture, options.caption, nullptr);
+  return any_hatched ? noted(picture, note_of(bare)) : picture;
 }
 
 Legend legend_of(const FalseColour& options, const Range& range, std::span<const double> values) {

@@ -14,11 +14,13 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
 #include "core/error.h"
 #include "core/format.h"
+#include "visual/hatching.h"
 
 namespace interflect::visual {
 
@@ -35,7 +37,8 @@ struct Frame {
 
 Frame frame_of(const Raster& raster) {
   Eigen::AlignedBox3d box;
-  for (const Vec3& p : raster.fronts.corners) box.extend(p);
+  for (const Polygons* each : {&raster.fronts, &raster.bare.polygons, &raster.clear.polygons})
+    for (const Vec3& p : each->corners) box.extend(p);
   return {0.5 * (box.min() + box.max()), 1 / std::max(box.diagonal().norm(), 1e-300)};
 }
 
@@ -88,8 +91,15 @@ void aim(vtkRenderer* renderer, const scene::Camera& camera, const Frame& frame)
   renderer->ResetCameraClippingRange();
 }
 
+/// Polygons in colours of corners.
+struct Drawing {
+  const Polygons& polygons;
+  std::span<const Colour> colours;
+  float line_width = 0;  ///< of their edges
+};
+
 /// Colours alone, factor x factor a pixel.
-Samples drawn(const Raster& raster, std::span<const Colour> colours, Colour background, int factor, float line_width) {
+Samples drawn(const Raster& raster, std::span<const Drawing> drawings, Colour background, int factor) {
   const int width = raster.camera.width * factor, height = raster.camera.height * factor;
   const Frame frame = frame_of(raster);
   vtkNew<vtkRenderWindow> window;
@@ -99,7 +109,9 @@ Samples drawn(const Raster& raster, std::span<const Colour> colours, Colour back
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(background[0] / 255.0, background[1] / 255.0, background[2] / 255.0);
   window->AddRenderer(renderer);
-  add_polygons(renderer, poly_data(raster.fronts, colours, frame), line_width);
+  for (const Drawing& each : drawings)
+    if (!each.polygons.sizes.empty())
+      add_polygons(renderer, poly_data(each.polygons, each.colours, frame), each.line_width);
   aim(renderer, raster.camera, frame);
   window->Render();
 
@@ -126,16 +138,31 @@ std::uint32_t code_of_colour(const Colour& c) {
   return (std::uint32_t{c[0]} >> 2) << 12 | (std::uint32_t{c[1]} >> 2) << 6 | std::uint32_t{c[2]} >> 2;
 }
 
-/// Of more than a quarter of a million faces some share a number.
-std::vector<std::uint32_t> faces_in(const Raster& raster, int factor) {
-  std::vector<Colour> colours;
-  for (std::size_t k = 0; k < raster.faces.size(); ++k) {
-    const std::uint32_t face = raster.faces[k];
-    colours.insert(colours.end(), raster.fronts.sizes[k],
-                   colour_of_code(face == Samples::back ? face : 1 + (face - 1) % (last_code - 1)));
+/// The code of each corner's face.  Of more than a quarter of a million faces some share a number; none that is hatched
+/// with one that is not.
+std::vector<Colour> codes_of(const Polygons& polygons, std::span<const std::uint32_t> faces, std::uint32_t hatched) {
+  std::vector<Colour> codes;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const std::uint32_t face = faces[k];
+    codes.insert(codes.end(), polygons.sizes[k],
+                 colour_of_code(face == Samples::back || face <= hatched
+                                    ? face
+                                    : hatched + 1 + (face - 1 - hatched) % (last_code - 1 - hatched)));
   }
+  return codes;
+}
+
+std::vector<std::uint32_t> faces_in(const Raster& raster, int factor) {
+  const auto codes = [&](const Polygons& polygons, std::span<const std::uint32_t> faces) {
+    return codes_of(polygons, faces, raster.hatched);
+  };
+  const std::vector<Colour> fronts = codes(raster.fronts, raster.faces),
+                            bare = codes(raster.bare.polygons, raster.bare.faces),
+                            clear = codes(raster.clear.polygons, raster.clear.faces);
+  const std::array drawings{Drawing{raster.fronts, fronts}, Drawing{raster.bare.polygons, bare},
+                            Drawing{raster.clear.polygons, clear}};
   std::vector<std::uint32_t> faces;
-  for (const Colour& colour : drawn(raster, colours, colour_of_code(last_code), factor, 0).colours) {
+  for (const Colour& colour : drawn(raster, drawings, colour_of_code(last_code), factor).colours) {
     const std::uint32_t code = code_of_colour(colour);
     faces.push_back(code == last_code ? Samples::nothing : code);
   }
@@ -165,18 +192,29 @@ int reach_of_outlines(int side, int factor) {
   return std::max(1, static_cast<int>(std::lround(factor * side / 2400.0)));
 }
 
+/// From stripe to stripe, of a picture of 800 pixels a side eight of them; of a small one no fewer than four.
+int period_of_hatching(int side, int factor) { return factor * std::max(4, side / 100); }
+
+/// All but what is clear.
+/// @param line_width  of elements' edges
+Samples coloured(const Raster& raster, int factor, float line_width) {
+  const std::array drawings{Drawing{raster.fronts, raster.fronts.colours, line_width},
+                            Drawing{raster.bare.polygons, raster.bare.polygons.colours}};
+  return drawn(raster, drawings, raster.background, factor);
+}
+
 }  // namespace
 
-core::Image rasterised(const Display&, const Raster& raster) {
+core::Image rasterised(const Display&, const Raster& raster, bool* any_hatched) {
   if (raster.fronts.sizes.empty()) throw core::PreconditionError("rasterised: at least one polygon expected");
   if (!raster.faces.empty() && raster.faces.size() != raster.fronts.sizes.size())
     throw core::PreconditionError("rasterised: a face per polygon expected");
   const int side = std::max(raster.camera.width, raster.camera.height);
   const int factor = side <= 2700 ? 3 : side <= 4000 ? 2 : 1;
-  Samples samples = drawn(raster, raster.fronts.colours, raster.background, factor, 0);
+  Samples samples = coloured(raster, factor, 0);
   if (raster.edges) {
     const auto width = static_cast<float>(factor * std::max(1.0, side / 1200.0));
-    const Samples lines = drawn(raster, raster.fronts.colours, raster.background, factor, width);
+    const Samples lines = coloured(raster, factor, width);
     for (std::size_t i = 0; i < lines.colours.size(); ++i)
       samples.colours[i] = mixed(samples.colours[i], lines.colours[i], 0.25);
   }
@@ -184,6 +222,8 @@ core::Image rasterised(const Display&, const Raster& raster) {
     constexpr int pixels_enough = 64;
     samples.faces = faces_in(raster, factor);
     leave_out_specks(samples);
+    const bool any = hatching::hatch(samples, raster.hatched, period_of_hatching(side, factor));
+    if (any_hatched != nullptr) *any_hatched = any;
     if (raster.outlines) draw_outlines(samples, reach_of_outlines(side, factor), pixels_enough * factor * factor);
   }
   return reduced(samples, factor);

@@ -150,10 +150,10 @@ Polygons smooth(const mesh::ElementMesh& mesh, std::span<const Rgb> values, doub
   return out;
 }
 
-Polygons black_backs(const scene::Scene& scene, const mesh::ElementMesh& mesh, results::Colour colour) {
+Polygons black_backs(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, results::Colour colour) {
   Polygons out;
   const std::array<results::Colour, 4> same{colour, colour, colour, colour};
-  for (const scene::SurfacePatch& patch : mesh.patches()) {
+  for (const scene::SurfacePatch& patch : patches) {
     if (scene.material(patch.surface).active(scene::Side::back)) continue;
     std::array<Vec3, 4> turned;
     std::reverse_copy(patch.ring().begin(), patch.ring().end(), turned.begin());

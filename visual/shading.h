@@ -42,7 +42,7 @@ Polygons curved(const mesh::SmoothMesh& mesh, std::span<const double> of_points,
 /// sRGB of `value` / white, clipped.
 results::Colour display_colour(const Rgb& value, double white);
 
-/// The backs of elements that have no element of their own on the other side, in one colour.
-Polygons black_backs(const scene::Scene& scene, const mesh::ElementMesh& mesh, results::Colour colour);
+/// The backs of patches whose surface has no other active side, in one colour.
+Polygons black_backs(const scene::Scene& scene, std::span<const scene::SurfacePatch> patches, results::Colour colour);
 
 }  // namespace interflect::visual

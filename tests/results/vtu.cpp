@@ -77,6 +77,25 @@ TEST(Vtu, a_field_that_does_not_fit_the_mesh_is_refused) {
   EXPECT_THROW(vtu_text(tiny::mesh(), std::vector{scalar_field("error", {1, 2})}), core::PreconditionError);
 }
 
+// Mirrors and glass are there, and nothing is known of them.
+TEST(Vtu, has_what_has_no_elements_behind_them_without_values) {
+  const std::vector bare{
+      make_patch(scene::SurfaceId{2}, scene::Side::back, std::array{Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)})};
+  std::vector<CellField> fields = id_fields(tiny::mesh(), bare);
+  fields.push_back(scalar_field("error", {0.1, 0.2, 0.3}));
+  const std::string xml = vtu_text(tiny::mesh(), fields, bare);
+  EXPECT_NE(xml.find("NumberOfPoints=\"12\" NumberOfCells=\"4\""), std::string::npos);
+  EXPECT_EQ(values<std::uint8_t>(xml, "types"), (std::vector<std::uint8_t>{9, 9, 5, 5}));
+  EXPECT_EQ(values<std::int64_t>(xml, "element"), (std::vector<std::int64_t>{0, 1, 2, -1}));
+  EXPECT_EQ(values<std::int32_t>(xml, "surface"), (std::vector<std::int32_t>{0, 0, 1, 2}));
+  EXPECT_EQ(values<std::int32_t>(xml, "side"), (std::vector<std::int32_t>{0, 0, 1, 1}));
+  const std::vector<double> error = values<double>(xml, "error");
+  ASSERT_EQ(error.size(), 4u);
+  EXPECT_EQ(error[2], 0.3);
+  EXPECT_TRUE(std::isnan(error[3]));
+  EXPECT_THROW(vtu_text(tiny::mesh(), std::vector{scalar_field("error", {1, 2})}, bare), core::PreconditionError);
+}
+
 // Two quads and a triangle are 4 + 4 + 3 quadratic triangles, with values at points.
 TEST(Vtu, of_a_smooth_mesh_has_quadratic_triangles_and_values_at_points) {
   const mesh::SmoothMesh smooth = mesh::smooth_mesh(tiny::mesh());

@@ -10,6 +10,7 @@
 #include "results/image_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tiny.h"
+#include "visual/bare_surfaces.h"
 #include "visual/comparison_picture.h"
 #include "visual/legend.h"
 #include "visual/raster.h"
@@ -330,4 +331,61 @@ TEST(ComparisonPicture, has_the_panels_as_they_are_with_words_over_them_and_a_le
     }
   EXPECT_GT(blue, 20);
   EXPECT_GT(red, 20);
+}
+
+// A mirror beside the floor, and a pane that stands above a half of it: both hatched and named.  The floor is read through
+// the pane; pictures of scenes without them are what they were.
+TEST_F(Picture, hatches_what_has_no_elements_and_says_so) {
+  constexpr int n = 2;
+  tiny::Floor floor(n);
+  const core::Image without = true_colour(display(), floor.scene, floor.mesh, std::vector<std::array<double, 3>>(4),
+                                          {.caption = {}, .white = 1, .camera = floor.camera(6)});
+  EXPECT_EQ(without.height, 90);
+  const auto add = [&](const scene::Finish& finish, scene::Sides sides, double x0, double x1, double z) {
+    const scene::SurfaceId id{static_cast<std::uint32_t>(floor.scene.surfaces.size())};
+    scene::Material material{"m", {}, {}, sides};
+    material.finish = finish;
+    floor.scene.materials.push_back(material);
+    scene::Surface surface{"s", {}, 0, 2, {}};
+    surface.material.value = static_cast<std::uint32_t>(floor.scene.materials.size() - 1);
+    surface.first_facet = static_cast<std::uint32_t>(floor.scene.facets.size()), surface.facets = 2;
+    floor.scene.surfaces.push_back(surface);
+    const Vec3 a(x0, 0, z), b(x1, 0, z), c(x1, 2, z), d(x0, 2, z);
+    floor.scene.facets.push_back(scene::make_facet(id, {a, b, c}));
+    floor.scene.facets.push_back(scene::make_facet(id, {a, c, d}));
+  };
+  add(scene::Mirror{Spectrum(0.9)}, scene::Sides::front, 2, 4, 0);
+  add(scene::Pane{Spectrum(0.9)}, scene::Sides::both, 0, 1, 0.1);
+  FalseColour options;
+  options.camera = floor.camera(6);
+  options.range = Range{0, 3};
+  options.outlines = false;
+  const core::Image image = false_colour(display(), floor.scene, floor.mesh, std::vector<double>(4, 3), options);
+  const Place at = place_of(120, 90, "");
+  const Colour of_floor = colour_of(options.map, 1);
+  int striped = 0, plain = 0, clear = 0, through = 0;
+  for (int y = 1; y < 89; ++y)
+    for (int x = 1; x < 119; ++x) {
+      const Vec3 d = options.camera->direction(x + 0.5, y + 0.5);
+      const Vec3 p = options.camera->eye - options.camera->eye.z() / d.z() * d;
+      if (std::abs(p.y() - 1) > 0.9) continue;
+      const Colour seen = pixel(image, at.left + x, at.top + y);
+      const bool grey = seen[0] == seen[1] && seen[1] == seen[2];
+      if (p.x() > 2.1 && p.x() < 3.9) {
+        EXPECT_TRUE(grey && seen[0] > 150 && seen[0] < 235) << x << ' ' << y;
+        ++(seen[0] < 200 ? striped : plain);
+      } else if (p.x() > 0.1 && p.x() < 0.8) {
+        ++(seen == of_floor ? through : clear);
+      } else if (p.x() > 1.2 && p.x() < 1.9) {
+        EXPECT_EQ(seen, of_floor) << x << ' ' << y;
+      }
+    }
+  EXPECT_GT(striped, 50);
+  EXPECT_GT(plain, 50);
+  EXPECT_GT(clear, 20);
+  EXPECT_GT(through, 3 * clear);
+  const core::Image noted = true_colour(display(), floor.scene, floor.mesh, std::vector<std::array<double, 3>>(4),
+                                        {.caption = {}, .white = 1, .camera = floor.camera(6)});
+  EXPECT_GT(noted.height, 100);  // a line below it
+  EXPECT_EQ(note_of(bare_surfaces(floor.scene, floor.mesh)), "hatched: no elements (mirror, glass)");
 }
