@@ -59,6 +59,10 @@ core::Image with_errors(const core::Image& radiance, const core::Image& error) {
   return with_channels(radiance, named);
 }
 
+core::Image with_errors_and_samples(const montecarlo::Rendering& rendering) {
+  return with_channels(with_errors(rendering.radiance, rendering.standard_error), rendering.samples_a_pixel);
+}
+
 core::Image with_channels(const core::Image& image, const core::Image& more) {
   std::vector<std::string> names = image.channels;
   names.insert(names.end(), more.channels.begin(), more.channels.end());

@@ -6,6 +6,7 @@
 
 #include "core/image.h"
 #include "measure/method.h"
+#include "montecarlo/render.h"
 #include "scene/scene.h"
 
 namespace interflect::apps {
@@ -26,6 +27,8 @@ CameraPicture picture_of(const measure::Method& method, const scene::Scene& scen
 
 /// The channels of a picture, then their errors under NAME.error: one EXR that says how sure it is.
 core::Image with_errors(const core::Image& radiance, const core::Image& error);
+/// The same of a traced one, its standard errors and how many samples each pixel has.
+core::Image with_errors_and_samples(const montecarlo::Rendering& rendering);
 /// The channels of both, of one size.
 core::Image with_channels(const core::Image& image, const core::Image& more);
 

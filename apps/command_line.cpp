@@ -10,15 +10,21 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/format.h"
-#include "core/sample_sequence.h"
-#include "montecarlo/film/reconstruction_filter.h"
 #include "montecarlo/integrators.h"
-#include "montecarlo/render.h"
 
 namespace interflect::apps {
 namespace {
 
 constexpr const char* example_scene = "data/scenes/cornell_box.json";
+
+/// Those that stand before the command or after it, as they are told of before it.
+std::string options_of_every_command(const CLI::App& app) {
+  std::vector<const CLI::Option*> of_all;
+  for (const CLI::Option* option : app.get_options())
+    if (option != app.get_help_ptr() && option->get_name() != "--version") of_all.push_back(option);
+  const std::string text = CLI::Formatter().make_group("Options of every command", false, of_all);
+  return text.substr(text.find_first_not_of('\n'));
+}
 
 /// A subcommand with an example; `run` is called with the options that parsing filled.
 template <class Options>
@@ -26,7 +32,7 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description, 
                       ExitStatus (*run)(const Options&, const CommonOptions&, Run&), std::shared_ptr<Options> options,
                       Command& chosen) {
   CLI::App* command = app.add_subcommand(name, description);
-  command->footer("Example:\n  " + example);
+  command->footer(options_of_every_command(app) + "\nExample:\n  " + example);
   command->callback([&chosen, run, options] {
     chosen.execute = [run, options](const CommonOptions& common, Run& r) { return run(*options, common, r); };
   });
@@ -90,7 +96,8 @@ void add_render(CLI::App& app, Command& chosen) {
                     "Pixels are the iterated solution, E + rho T B_h: shadows as they are, not as elements have them");
   command->add_option("--rays", options->rays, "A pixel, rounded to a square")
       ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+      ->default_str(core::format("%d; beside mirrors and glass %d, with --gather %d", rays_a_pixel, rays_by_mirrors,
+                                 rays_by_mirrors_gathered));
 }
 
 void add_trace(CLI::App& app, Command& chosen) {
@@ -101,40 +108,18 @@ void add_trace(CLI::App& app, Command& chosen) {
       chosen);
   add_scene(*command, options->scene);
   add_camera(*command, options->camera);
-  command->add_option("--spp", options->samples, "Samples per pixel at most; of whitted a multiple of 16")
-      ->check(CLI::Range(1, 1 << 24))
-      ->capture_default_str();
   command
       ->add_option("-o,--out", options->image,
                    "Picture to write: .exr (radiance, with standard errors) or .png; the other is "
                    "written beside it")
       ->required();
-  command->add_option("--filter", options->filter, "How points of the film count for pixels near them")
-      ->check(CLI::IsMember(montecarlo::filter_names()))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--sequence", options->sequence,
-          core::format("Numbers that paths begin with, of --integrator path; but for independent ones --spp is a "
-                       "multiple of %d",
-                       montecarlo::sequence_batches))
-      ->check(CLI::IsMember(core::sequence_names()))
-      ->capture_default_str();
-  command->add_flag(
-      "--resume", options->resume,
-      "Go on from the checkpoint that an earlier run left beside its picture, every minute and when it was "
-      "stopped");
-  command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
-      ->check(named("a folder"));
   command->add_option("--integrator", options->integrator, "How picture and estimates are traced (docs/compare.md)")
       ->check(CLI::IsMember(montecarlo::integrator_names()))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--target", options->target,
-          "End the picture where relative standard errors of its pixels, in the root mean square, are below, such as "
-          "5%")
-      ->transform(fraction());
+  add_sampling(*command, *options);
+  add_checkpoint(*command, *options);
+  command->add_option("--estimates", options->estimates, "Folder for traced surfaces.csv and sensors.csv")
+      ->check(named("a folder"));
   add_accuracy(*command, options->accuracy, "those estimates");
   add_paths(*command, options->paths);
   command
@@ -155,13 +140,16 @@ void add_compare(CLI::App& app, Command& chosen) {
   add_scene(*command, options->scene);
   add_folder(*command, options->out);
   command
-      ->add_option("--integrators", options->integrators, "Which ones; default: all but two-pass, which solves first")
+      ->add_option("--integrators", options->integrators,
+                   "Which ones; default: all but two-pass and controlled, which solve first")
       ->delimiter(',')
       ->check(CLI::IsMember(montecarlo::integrator_names()));
   add_target(*command, options->target);
   add_paths(*command, options->paths);
   add_camera(*command, options->camera);
-  command->add_option("--spp", options->samples, "Samples per pixel of the pictures")
+  command
+      ->add_option("--spp", options->samples,
+                   "Samples per pixel of the pictures; of whitted rounded up to a multiple of 16")
       ->check(CLI::Range(2, 1 << 20))
       ->capture_default_str();
   command
@@ -170,7 +158,7 @@ void add_compare(CLI::App& app, Command& chosen) {
           "Small runs of other seeds, with as many samples again in all, by which the mean z is judged; 0: none")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  add_no_pictures(*command, options->pictures);
+  add_no_pictures(*command, options->pictures, "Draw no pictures: no PNG, and no EXR");
   add_intersector(*command, options->intersector, "Ray caster");
 }
 
@@ -351,7 +339,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   app.fallthrough();
   app.footer(
       core::format("Start with:\n  interflect validate %s -o out/cornell\n"
-                   "Exit status: 0 done, 1 done but not as hoped (not validated, findings), 2 bad input.\n"
+                   "Exit status: 0 done, 1 done but not as hoped (not validated, findings, stopped), 2 bad input.\n"
                    "Each command has its own --help with an example.",
                    example_scene));
   add_common(app, command.common);

@@ -11,12 +11,12 @@
 
 namespace interflect::apps {
 
-/// The radiosity solution that two passes start from, where any integrator asked for needs one.
+/// The radiosity solution that two passes and controlled paths start from, where any integrator asked for needs one.
 class FirstPass {
  public:
   /// Solves the scene, with the element size of `interflect solve`, if that is needed and the second pass may follow.
   /// What cannot be solved is told where it is asked for.
-  /// @param paths  that count in the second pass
+  /// @param paths  that count in the second pass, of what inherits the solution's error
   /// @throws core::Interrupted
   FirstPass(const scene::Scene& scene, const std::vector<std::string>& integrators, const measure::PathClasses& paths,
             const std::string& intersector, Run& run);

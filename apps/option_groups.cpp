@@ -8,6 +8,8 @@
 #include "core/format.h"
 #include "core/sample_sequence.h"
 #include "fem/closure.h"
+#include "montecarlo/film/reconstruction_filter.h"
+#include "montecarlo/render.h"
 
 namespace interflect::apps {
 namespace {
@@ -201,9 +203,9 @@ CLI::Option* add_folder(CLI::App& command, std::filesystem::path& out, const std
   return command.add_option("-o,--out", out, "Folder for " + what)->check(named("a folder"))->required();
 }
 
-void add_no_pictures(CLI::App& command, bool& pictures) {
+void add_no_pictures(CLI::App& command, bool& pictures, const std::string& description) {
   command.add_flag_callback(
-      "--no-pictures", [&pictures] { pictures = false; }, "Write no PNG");
+      "--no-pictures", [&pictures] { pictures = false; }, description);
 }
 
 void add_forecast(CLI::App& command, bool& forecast_only, CLI::Option* out) {
@@ -266,6 +268,38 @@ void add_paths(CLI::App& command, std::string& paths) {
                   "diffuse, G glossy, S mirror or glass, . any of these; ( ) | * + ? as ever")
       ->check(named("paths"))
       ->capture_default_str();
+}
+
+void add_sampling(CLI::App& command, TraceOptions& options) {
+  command.add_option("--spp", options.samples, "Samples per pixel at most; of whitted a multiple of 16")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
+  command.add_option("--filter", options.filter, "How points of the film count for pixels near them")
+      ->check(CLI::IsMember(montecarlo::filter_names()))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--sequence", options.sequence,
+          core::format("Numbers that paths begin with, of --integrator path; but for independent ones --spp is a "
+                       "multiple of %d",
+                       montecarlo::sequence_batches))
+      ->check(CLI::IsMember(core::sequence_names()))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--target", options.target,
+          "End the picture where relative standard errors of its pixels, in the root mean square, are below, such as "
+          "5%")
+      ->transform(fraction());
+}
+
+void add_checkpoint(CLI::App& command, TraceOptions& options) {
+  command.add_flag("--resume", options.resume,
+                   "Go on from the checkpoint NAME.checkpoint.h5 that an earlier run left beside its picture: every "
+                   "minute, and when "
+                   "it was stopped; it is removed when the picture has the samples, or meets the --target, asked for");
+  command.add_flag("--keep-checkpoint", options.keep_checkpoint,
+                   "Leave the checkpoint of a finished picture too: with --resume and a larger --spp it grows further");
 }
 
 void add_accuracy(CLI::App& command, double& accuracy, const std::string& of) {

@@ -19,7 +19,7 @@ void add_common(CLI::App& app, CommonOptions& common);
 void add_scene(CLI::App& command, std::filesystem::path& scene);
 void add_camera(CLI::App& command, std::string& camera);
 CLI::Option* add_folder(CLI::App& command, std::filesystem::path& out, const std::string& what = "the results");
-void add_no_pictures(CLI::App& command, bool& pictures);
+void add_no_pictures(CLI::App& command, bool& pictures, const std::string& description = "Write no PNG");
 
 /// @param out  where the results go, which a forecast does not need
 void add_forecast(CLI::App& command, bool& forecast_only, CLI::Option* out);
@@ -35,6 +35,11 @@ void add_target(CLI::App& command, double& target);
 /// Paths of light that count, in Heckbert's notation.
 void add_paths(CLI::App& command, std::string& paths);
 void add_accuracy(CLI::App& command, double& accuracy, const std::string& of);
+
+/// How a picture is traced: samples, filter, sequence, and when it ends.
+void add_sampling(CLI::App& command, TraceOptions& options);
+/// How it outlives its run.
+void add_checkpoint(CLI::App& command, TraceOptions& options);
 
 /// How much a form-factor method does: a row's error, samples, cells, rays.  What is not heeded is refused
 /// (heeded_options.h).

@@ -48,12 +48,15 @@ struct ValidateOptions {
   int picture_samples = 64;  ///< per pixel of the traced picture
 };
 
+/// Rays a pixel where none are asked for: usually, and beside mirrors and glass, without and with a gather at each.
+inline constexpr int rays_a_pixel = 4, rays_by_mirrors = 64, rays_by_mirrors_gathered = 16;
+
 struct RenderOptions {
   SolveOptions solve;
   std::filesystem::path image;
   std::string camera;  ///< empty: the scene's first
   bool gather = false;
-  int rays = 4;  ///< a pixel
+  int rays = 0;  ///< a pixel; 0: as many as the scene asks for (render.cpp)
 };
 
 struct TraceOptions {
@@ -62,6 +65,7 @@ struct TraceOptions {
   int samples = 64;
   std::string filter = "box", sequence = "independent";
   bool resume = false;              ///< from the checkpoint of an earlier run
+  bool keep_checkpoint = false;     ///< of a picture that has all that was asked for too
   std::filesystem::path estimates;  ///< folder for surfaces.csv and sensors.csv; empty: none
   std::string integrator = "path";
   std::string paths = "L.*E";  ///< that count

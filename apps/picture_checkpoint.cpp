@@ -1,6 +1,8 @@
 #include "apps/picture_checkpoint.h"
 
 #include "core/build_info.h"
+#include "core/error.h"
+#include "core/log.h"
 #include "results/digest.h"
 #include "results/record.h"
 #include "scene/io/text_file.h"
@@ -65,16 +67,31 @@ PictureCheckpoint::PictureCheckpoint(const scene::Scene& scene, scene::CameraId 
                                         .add("intersector", options.intersector));
 }
 
-void PictureCheckpoint::write(const montecarlo::FilmState& state) const {
+void PictureCheckpoint::write(const montecarlo::FilmState& state) {
   results::Checkpoint now = of_;
   now.matrices.push_back({"film", state});
   results::write_checkpoint(file_, now);
+  own_ = true;
 }
 
-montecarlo::FilmState PictureCheckpoint::read() const {
+void PictureCheckpoint::remove() {
+  if (!own_) return;
+  std::error_code error;
+  std::filesystem::remove(file_, error);
+  if (error) core::log::warning(file_.string() + ": the checkpoint is not removed: " + error.message());
+  own_ = false;
+}
+
+montecarlo::FilmState PictureCheckpoint::read() {
+  if (!std::filesystem::exists(file_))
+    throw core::InputError(file_.string(),
+                           "there is no such checkpoint: one of a finished picture is left by "
+                           "--keep-checkpoint alone");
   results::Checkpoint expected = of_;
   expected.matrices.push_back({"film", solvers::ColumnMatrix(size_.first, size_.second)});
-  return results::read_checkpoint(file_, expected).matrix("film");
+  montecarlo::FilmState state = results::read_checkpoint(file_, expected).matrix("film");
+  own_ = true;
+  return state;
 }
 
 }  // namespace interflect::apps

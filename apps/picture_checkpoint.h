@@ -16,12 +16,17 @@ class PictureCheckpoint {
                     const CommonOptions& common);
 
   const std::filesystem::path& file() const { return file_; }
-  void write(const montecarlo::FilmState& state) const;
+  /// Whether it is this run's: that which it has written or goes on from.  Another that lies there is of another run.
+  bool is_own() const { return own_; }
+  void write(const montecarlo::FilmState& state);
   /// @throws core::InputError  there is none, or one of another scene, or of other settings
-  montecarlo::FilmState read() const;
+  montecarlo::FilmState read();
+  /// Of a picture that needs it no more: this run's own, if there is one.  Warns where it cannot be removed.
+  void remove();
 
  private:
   std::filesystem::path file_;
+  bool own_ = false;
   results::Checkpoint of_;  ///< its digest and settings
   std::pair<Index, Index> size_;
 };

@@ -6,6 +6,7 @@
 #include "apps/solution_files.h"
 #include "core/format.h"
 #include "fem/point_of_view.h"
+#include "fem/specular/specular_chains.h"
 #include "results/image_file.h"
 
 namespace interflect::apps {
@@ -18,6 +19,14 @@ struct Rendered {
   double mean, mean_error;
   std::filesystem::path exr, png;
 };
+
+/// Of rays that meet mirrors or glass a few are mirrored and the others pass, by chance: with so many a pixel that is a
+/// fine grain, and no speckle.  Where each goes on into a gather there are fewer: they cost more.
+int rays_of(const RenderOptions& options, const scene::Scene& scene) {
+  if (options.rays > 0) return options.rays;
+  if (!fem::any_smooth(scene)) return rays_a_pixel;
+  return options.gather ? rays_by_mirrors_gathered : rays_by_mirrors;
+}
 
 double weighed_mean(const scene::Scene& scene, const core::Image& image) {
   double sum = 0;
@@ -52,7 +61,7 @@ ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run
   of_solve.out = options.image.has_parent_path() ? options.image.parent_path() : ".";
   const auto solved = solve_scene(std::move(read), of_solve, common, run);
   const scene::Scene& scene = solved->scene;
-  const int side = static_cast<int>(std::lround(std::sqrt(options.rays)));
+  const int side = static_cast<int>(std::lround(std::sqrt(rays_of(options, scene))));
   const CameraPicture picture =
       picture_of(fem::RadiosityMethod(solved->solution, *solved->rays, {side, options.gather}), scene, camera, run);
   Rendered rendered{scene.camera(camera).name,          side * side,   weighed_mean(scene, picture.radiance),

@@ -30,16 +30,9 @@ struct SamplesTold {
   std::string text = {};  ///< of the worst of these
 };
 
-std::string pixel_name(std::size_t pixel, int width) {
-  const auto row = static_cast<std::size_t>(width);
-  return core::format("pixel (%zu, %zu)", pixel % row, pixel / row);
-}
-
 SamplesTold told_of(const montecarlo::Rendering& picture) {
-  std::vector<std::string> names;
-  for (std::size_t p = 0; p < picture.samples_a_pixel.data.size(); ++p)
-    names.push_back(pixel_name(p, picture.radiance.width));
-  return {picture.report.not_finite, picture.report.heavy.size(), picture.report.heavy_text(names)};
+  return {picture.report.not_finite, picture.report.heavy.size(),
+          picture.report.heavy_text_of_picture(picture.radiance.width, picture.radiance.height)};
 }
 
 std::vector<std::string> names_of(const scene::Scene& scene, const SceneQuestions& questions) {
@@ -81,35 +74,38 @@ struct Traced {
   std::string camera;
   std::uint64_t samples;  ///< a pixel
   std::filesystem::path exr, png;
-  std::filesystem::path checkpoint;  ///< to go on from; empty where the run was not stopped
-  std::filesystem::path estimates;   ///< their folder; empty where none were written
-  bool stopped;
+  bool stopped;                           ///< before all was done
+  std::filesystem::path checkpoint = {};  ///< to go on from; empty where this run leaves none
+  std::filesystem::path estimates = {};   ///< their folder; empty where none were written
   SamplesTold of_picture = {}, of_estimates = {};
 };
 
-/// The folder of the estimates; empty where none were asked for, or a stop came before there were any.
-std::filesystem::path estimates_written(const scene::Scene& scene, const TraceOptions& options, const FirstPass& first,
-                                        Run& run, SamplesTold& told) {
-  if (options.estimates.empty()) return {};
+/// Writes them, if they were asked for and a stop leaves time for any.
+void add_estimates(const scene::Scene& scene, const TraceOptions& options, const FirstPass& first, Run& run,
+                   Traced& traced) {
+  if (options.estimates.empty()) return;
   try {
-    write_estimates(scene, options, first, run, told);
+    write_estimates(scene, options, first, run, traced.of_estimates);
   } catch (const core::Interrupted&) {
     core::log::warning("stopped: no estimates were written");
-    return {};
+    traced.stopped = true;
+    return;
   }
-  if (run.stop.stop_requested())
-    core::log::warning("stopped: the estimates have fewer samples than --accuracy asks for");
-  return options.estimates;
+  traced.estimates = options.estimates;
+  if (!run.stop.stop_requested()) return;
+  core::log::warning("stopped: the estimates have fewer samples than --accuracy asks for");
+  traced.stopped = true;
 }
 
 montecarlo::Rendering rendered(const scene::Scene& scene, scene::CameraId camera, const TraceOptions& options,
-                               const FirstPass& first, const PictureCheckpoint& checkpoint, Run& run) {
+                               const FirstPass& first, PictureCheckpoint& checkpoint, Run& run) {
   montecarlo::FilmState state;
   montecarlo::RenderCheckpoints checkpoints;
   if (options.resume) {
     state = checkpoint.read();
     checkpoints.from = &state;
   }
+  checkpoints.at_end = options.keep_checkpoint;
   checkpoints.keep = [&](const montecarlo::FilmState& now) { checkpoint.write(now); };
   const auto rays = raycast::make_ray_caster(options.intersector, scene);
   try {
@@ -117,7 +113,7 @@ montecarlo::Rendering rendered(const scene::Scene& scene, scene::CameraId camera
     settings.solution = first.solution();
     return montecarlo::render(scene, camera, settings, run, *rays, checkpoints);
   } catch (const core::Interrupted&) {  // before there is a picture
-    core::log::warning("--resume goes on from " + checkpoint.file().string());
+    if (checkpoint.is_own()) core::log::warning("--resume goes on from " + checkpoint.file().string());
     throw;
   }
 }
@@ -137,9 +133,8 @@ void print_text(const Traced& t) {
     std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(),
                 (t.estimates / "sensors.csv").c_str());
   print_text(t.of_estimates);
-  if (t.stopped)
-    std::printf("stopped before all was done%s\n",
-                t.checkpoint.empty() ? "" : (": --resume goes on from " + t.checkpoint.string()).c_str());
+  if (t.stopped) std::printf("stopped before all was done\n");
+  if (!t.checkpoint.empty()) std::printf("--resume goes on from %s\n", t.checkpoint.c_str());
 }
 
 void add(const SamplesTold& told, const std::string& of, results::Record& record) {
@@ -169,19 +164,17 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   std::optional<results::OutputDirectory> pictures, estimates;
   if (options.image.has_parent_path()) pictures.emplace(options.image.parent_path());
   if (!options.estimates.empty()) estimates.emplace(options.estimates);
-  const PictureCheckpoint checkpoint(scene, camera, options, common);
+  PictureCheckpoint checkpoint(scene, camera, options, common);
   const FirstPass first(scene, {options.integrator}, measure::PathClasses::of(options.paths), options.intersector, run);
   first.require_solved();
   const montecarlo::Rendering rendering = rendered(scene, camera, options, first, checkpoint, run);
-  Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, {}, {}, false};
-  if (run.stop.stop_requested()) traced.checkpoint = checkpoint.file();
-  results::write_image(
-      traced.exr.replace_extension(".exr"),
-      with_channels(with_errors(rendering.radiance, rendering.standard_error), rendering.samples_a_pixel));
+  Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, !rendering.complete};
+  results::write_image(traced.exr.replace_extension(".exr"), with_errors_and_samples(rendering));
   results::write_image(traced.png.replace_extension(".png"), results::as_rgb(scene, rendering.radiance));
   traced.of_picture = told_of(rendering);
-  traced.estimates = estimates_written(scene, options, first, run, traced.of_estimates);
-  traced.stopped = run.stop.stop_requested();
+  add_estimates(scene, options, first, run, traced);
+  if (!traced.stopped && !options.keep_checkpoint) checkpoint.remove();  // after what it was for is written
+  if (checkpoint.is_own()) traced.checkpoint = checkpoint.file();
   if (common.json)
     std::printf("%s\n", results::json_text(record_of(traced)).c_str());
   else if (!common.quiet)

@@ -79,6 +79,9 @@ std::unique_ptr<measure::Method> tracer_for(const ValidateOptions& options) {
 
 /// Without a bias, and of all paths that radiosity finds: else a difference would say nothing.
 void require_reference(const ValidateOptions& options) {
+  if (montecarlo::integrator_entry(options.integrator).needs_solution)
+    throw core::InputError("integrator '" + options.integrator + "'",
+                           "one expected that knows nothing of a radiosity solution, which it is to check");
   const measure::Capabilities finds = tracer_for(options)->capabilities();
   for (const measure::PathClasses* each : {&finds.to_patches, &finds.to_points})
     if (const auto missed = measure::PathClasses::of("A(D|S)*E") - *each; !finds.unbiased || !missed.empty())

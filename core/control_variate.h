@@ -20,6 +20,9 @@ class ControlVariate {
 
   void add(double f, double g);
 
+  /// c of all samples, for others than these: a pilot's.  0 where g does not vary.
+  double factor() const { return best_factor(all_); }
+
   struct Result {
     double mean, standard_error;
   };

@@ -114,17 +114,25 @@ class Comparing {
 
 }  // namespace
 
-double IntegratorTrial::efficiency(const scene::Scene& scene) const {
-  double variance = 0;
-  int count = 0;
+RelativeErrors IntegratorTrial::relative_errors(const scene::Scene& scene) const {
+  double noise = 0, bound = 0;
+  std::size_t over = 0;
+  const auto square = [](double x) { return x * x; };
   for (const Estimate& each : found) {
     const double value = scene.weigh(each.value);
     if (value == 0) continue;
-    const double error = std::hypot(weighed_standard_error(scene, each), scene.weigh(each.error_bound));
-    variance += error * error / (value * value);
-    ++count;
+    noise += square(weighed_standard_error(scene, each) / value);
+    bound += square(scene.weigh(each.error_bound) / value);
+    ++over;
   }
-  return count > 0 ? count / (variance * processor_seconds) : 0;
+  if (over == 0) return {};
+  const auto count = static_cast<double>(over);
+  return {std::sqrt(noise / count), std::sqrt(bound / count), over};
+}
+
+double IntegratorTrial::efficiency(const scene::Scene& scene) const {
+  const RelativeErrors errors = relative_errors(scene);
+  return errors.over > 0 ? 1 / (errors.both() * errors.both() * processor_seconds) : 0;
 }
 
 IntegratorComparison compare_integrators(const scene::Scene& scene, std::span<const measure::Measurement> asked,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,15 @@
 #include "montecarlo/sample_report.h"
 
 namespace interflect::montecarlo {
+
+/// Root mean squares, relative to the values, over the measurements whose weighed value is not 0, in the scene's weights.
+struct RelativeErrors {
+  double noise = 0;      ///< standard errors
+  double bound = 0;      ///< error bounds
+  std::size_t over = 0;  ///< how many measurements these are of
+
+  double both() const { return std::hypot(noise, bound); }
+};
 
 /// What an integrator found of a list of measurements of one kind.
 struct IntegratorTrial {
@@ -24,8 +34,9 @@ struct IntegratorTrial {
   /// none were asked for, or no pair needs them, or the run was stopped before.
   std::vector<std::vector<Estimate>> again = {};
 
-  /// 1 / (relative error² x processor time) [1/s]: mean of (standard error² + bound²) / value² over the measurements
-  /// whose weighed value is not 0, in the scene's weights.  Twice the samples leave it as it is where there is no bias.
+  RelativeErrors relative_errors(const scene::Scene& scene) const;
+  /// 1 / (relative error² x processor time) [1/s], the error being `both` of the relative ones; 0 where nothing is known.
+  /// Twice the samples leave it as it is where there is no bias.
   double efficiency(const scene::Scene& scene) const;
 };
 

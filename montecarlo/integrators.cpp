@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "montecarlo/bidirectional/bidirectional_exposure.h"
 #include "montecarlo/bidirectional/bidirectional_tracer.h"
+#include "montecarlo/controlled/controlled.h"
 #include "montecarlo/light_exposure.h"
 #include "montecarlo/light_tracer.h"
 #include "montecarlo/path_exposure.h"
@@ -45,6 +46,13 @@ const std::vector<IntegratorEntry>& known_integrators() {
        .shares_paths = false,
        .make = make<TwoPass, TwoPassSettings>,
        .expose = two_pass_exposure,
+       .needs_solution = true,
+       .inherits_error = true},
+      {.name = "controlled",
+       .summary = "paths that end where radiosity says what is left, without its error",
+       .shares_paths = false,
+       .make = make<Controlled, ControlledSettings>,
+       .expose = controlled_exposure,
        .needs_solution = true},
   };
   return all;

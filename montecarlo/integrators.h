@@ -31,6 +31,7 @@ struct IntegratorEntry {
   MakeExposure* expose = nullptr;
   bool by_quadrature = false;   ///< a picture's samples are points in `sequence_batches` copies, and may leave some out
   bool needs_solution = false;  ///< IntegratorSettings::solution
+  bool inherits_error = false;  ///< of it: a bound that samples do not lower
 };
 const std::vector<IntegratorEntry>& known_integrators();
 std::vector<std::string> integrator_names();

@@ -73,6 +73,18 @@ void LightPaths::join_emission(std::uint32_t light, const Emission& emission, do
   join(emission.position, emission.normal, light, sends, false, {0, film, lens_u, lens_v}, deposits);
 }
 
+void LightPaths::join_scattering(const Arrived& arrived, const Bsdf& bsdf, core::RandomNumbers& numbers,
+                                 Deposits& deposits) const {
+  if (targets_.empty() || bsdf.only_delta() || !counts(paths_.after(arrived.letters, letter_of(bsdf)))) return;
+  std::array<double, 4> u;
+  for (double& each : u) each = numbers.next();
+  const auto sends = [&](const Vec3& way) {
+    const Vec3 to = arrived.frame.to_local(way);
+    return arrived.flux * bsdf.f(arrived.from, to) * std::abs(to.z());
+  };
+  join(arrived.at.position, arrived.frame.n, std::nullopt, sends, true, u, deposits);
+}
+
 void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
   numbers.jump(emission_block);
   const auto [light, probability] = emissions_.pick(numbers.next());
@@ -102,15 +114,7 @@ void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
     const Vec3 from = frame.to_local(-ray.direction);
     numbers.jump(block);
     const double lobe = numbers.next(), a = numbers.next(), b = numbers.next(), survival = numbers.next();
-    if (!targets_.empty() && !bsdf->only_delta() && counts(paths_.after(letters, letter_of(*bsdf)))) {
-      std::array<double, 4> joint;
-      for (double& each : joint) each = numbers.next();
-      const auto sends = [&](const Vec3& way) {
-        const Vec3 to = frame.to_local(way);
-        return flux * bsdf->f(from, to) * std::abs(to.z());
-      };
-      join(hit->position, frame.n, std::nullopt, sends, true, joint, deposits);
-    }
+    join_scattering({*hit, frame, from, flux, letters}, *bsdf, numbers, deposits);
     const auto on = bsdf->sample(from, {lobe, a, b}, Walk::from_light);
     if (!on) return;
     flux *= on->weight;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/hemisphere.h"
 #include "core/random.h"
 #include "montecarlo/light/emission_picker.h"
 #include "montecarlo/measured_patches.h"
@@ -74,6 +75,17 @@ class LightPaths {
   /// Light that has not met a surface yet.
   void join_emission(std::uint32_t light, const Emission& emission, double probability, core::RandomNumbers& numbers,
                      Deposits& deposits) const;
+  /// What a path brings to a surface.
+  struct Arrived {
+    const scene::SurfacePoint& at;
+    const core::Frame& frame;
+    const Vec3& from;  ///< towards where it came from, in the frame
+    const Spectrum& flux;
+    Letters letters;  ///< before this surface
+  };
+  /// Joins a surface that scatters with points and films.
+  void join_scattering(const Arrived& arrived, const Bsdf& bsdf, core::RandomNumbers& numbers,
+                       Deposits& deposits) const;
   /// @param sends  the intensity towards a direction, per flux that is carried [1/sr]
   template <class Sends>
   void join(const Vec3& y, const Vec3& normal, std::optional<std::uint32_t> light, const Sends& sends, bool points,

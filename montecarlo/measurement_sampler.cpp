@@ -50,6 +50,12 @@ Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& fil
 
 void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
                   const PathEstimator& paths, const PathEstimator::Keys& keys, std::span<Spectrum> samples) {
+  const auto radiances = [&](auto rays, std::uint32_t block, auto found) { paths.radiance(rays, keys, block, found); };
+  film_samples(film, filter, pixel, radiances, keys, samples);
+}
+
+void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
+                  const Radiances& radiances, const PathEstimator::Keys& keys, std::span<Spectrum> samples) {
   std::vector<OnFilm> at;
   at.reserve(samples.size());
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -57,20 +63,20 @@ void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter
     at.push_back(on_film(film, numbers));
   }
   std::vector<Spectrum> found(samples.size());
-  const auto radiances = [&](auto offset, std::uint32_t block) {
+  const auto seen = [&](auto offset, std::uint32_t block) {
     std::vector<std::optional<raycast::Ray>> rays;
     rays.reserve(samples.size());
     for (const OnFilm& each : at) {
       const auto ray = film.ray(middle_of(pixel) + offset(each), each.lens);
       rays.push_back(ray ? std::optional(raycast::Ray{ray->origin, ray->direction}) : std::nullopt);
     }
-    paths.radiance(rays, keys, block, found);
+    radiances(rays, block, found);
   };
-  radiances([&](const OnFilm& each) { return filter.sample(each.u, each.v); }, path_block(film));
+  seen([&](const OnFilm& each) { return filter.sample(each.u, each.v); }, path_block(film));
   std::copy(found.begin(), found.end(), samples.begin());
   const double negative = filter.negative();
   if (negative == 0) return;
-  radiances([&](const OnFilm& each) { return filter.sample_negative(each.u, each.v); }, second_path_block);
+  seen([&](const OnFilm& each) { return filter.sample_negative(each.u, each.v); }, second_path_block);
   for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = (1 + negative) * samples[k] - negative * found[k];
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -20,7 +21,13 @@ struct PixelOnFilm {
 Spectrum film_sample(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
                      const PathEstimator& paths, core::RandomNumbers& numbers);
 
-/// The same of samples one after the other, traced together; bit by bit.
+/// Radiances that come along many rays, with the paths' numbers from `block` on.
+using Radiances = std::function<void(std::span<const std::optional<raycast::Ray>> from_eye, std::uint32_t block,
+                                     std::span<Spectrum> found)>;
+/// The same of samples one after the other, whose radiances are found together.
+void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
+                  const Radiances& radiances, const PathEstimator::Keys& keys, std::span<Spectrum> samples);
+/// By paths that are traced together; bit by bit film_sample.
 void film_samples(const scene::FilmMap& film, const ReconstructionFilter& filter, const PixelOnFilm& pixel,
                   const PathEstimator& paths, const PathEstimator::Keys& keys, std::span<Spectrum> samples);
 

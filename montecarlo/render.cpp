@@ -55,7 +55,7 @@ std::size_t pixels_of(const scene::Camera& camera) {
 
 Film empty_film(const scene::Scene& scene, std::size_t pixels, const RenderSettings& settings) {
   const IntegratorEntry& integrator = integrator_entry(settings.integrator);
-  return {pixels, scene.channel_count(), batches_of(settings), integrator.by_quadrature || integrator.needs_solution};
+  return {pixels, scene.channel_count(), batches_of(settings), integrator.by_quadrature || integrator.inherits_error};
 }
 
 /// Noise, and as much more as makes of 95 % of it what covers a bound too.
@@ -93,14 +93,18 @@ class Painter {
     const auto after_some = [&] {
       if (checkpoints_.keep && core::seconds_since(saved_) >= checkpoints_.seconds_between) keep();
     };
-    for (std::uint64_t done = film_.fewest_samples(); done < settings_.samples && !stopped();) {
+    bool good_enough = false;
+    for (std::uint64_t done = film_.fewest_samples(); done < settings_.samples && !good_enough && !stopped();) {
       const std::uint64_t look = next_look(done);
       done = exposure_->pass(film_, done, look, stage, after_some);
-      if (settings_.target > 0 && done == look && mean_relative_error() <= settings_.target) break;
+      good_enough = settings_.target > 0 && done == look && mean_relative_error() <= settings_.target;
     }
-    if (checkpoints_.keep && (stopped() || kept_ || checkpoints_.from != nullptr)) keep();
+    if (checkpoints_.keep && (stopped() || checkpoints_.at_end)) keep();
     if (film_.fewest_samples() == 0) throw core::Interrupted("rendering " + camera_.name);
-    return developed();
+    Rendering picture = developed();
+    // Not by the stop flag, which may be raised after the last sample.
+    picture.complete = good_enough || picture.samples >= settings_.samples;
+    return picture;
   }
 
  private:
@@ -136,7 +140,6 @@ class Painter {
 
   void keep() {
     checkpoints_.keep(film_.state());
-    kept_ = true;
     saved_ = Clock::now();
   }
 
@@ -176,7 +179,6 @@ class Painter {
   const RenderCheckpoints& checkpoints_;
   Film film_;
   Clock::time_point saved_ = Clock::now();
-  bool kept_ = false;
 };
 
 }  // namespace

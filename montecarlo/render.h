@@ -23,6 +23,7 @@ struct Rendering {
   core::Image samples_a_pixel;  ///< one channel, "samples"
   std::uint64_t samples = 0;    ///< that every pixel has; more in some, if the run was stopped within a pass
   SampleReport report = {};     ///< of measurement y * width + x each
+  bool complete = false;        ///< it has all that was asked for: no stop came in between
 };
 
 struct RenderSettings {
@@ -48,6 +49,7 @@ struct RenderCheckpoints {
   double seconds_between = 60;
   /// Called with the state after so long, and at a stop; empty: nothing is kept.
   std::function<void(const FilmState& state)> keep = {};
+  bool at_end = false;  ///< it is kept of a picture too that has all that was asked for, so that it may grow further
 };
 /// Rows and columns of the state of a picture.
 std::pair<Index, Index> render_state_size(const scene::Scene& scene, scene::CameraId camera,

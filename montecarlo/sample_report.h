@@ -26,10 +26,22 @@ struct SampleReport {
   /// "one sample carries 7 % of floor: its error may be understated; so in 3 of 20"; empty where none does.
   /// @param names  of all measurements
   std::string heavy_text(const std::vector<std::string>& names) const;
+  /// Of a picture, whose measurements are its pixels: the share of those; empty where that is below `heavy_pixels`.
+  std::string heavy_text_of_picture(int width, int height) const;
+
+ private:
+  const Heavy& worst() const;
 };
 
-/// Above this share one sample is heavy; of n samples above 20 / n too, 20 times what a sample is on average, since of few
-/// samples each is much.
-inline constexpr double heavy_share = 0.05, heavy_over_mean = 20;
+/// One sample is heavy where it is more than 5 % of what all of them found, and there are at least 400.
+///
+/// Of n samples alike each is 1 / n, so that 5 % tell something only where n is well above 20.  Where one is 5 %, 20 such
+/// make the whole: found 20 times or less, light may as well have been found half as often, and the standard error, made of
+/// the same finds, would not know.  Whether it is rare light is seen where 20 finds are less than one sample in 20, n > 400;
+/// of fewer samples it may be what every wall sends, met late, and the stated error, above 5 % itself, says so already.
+inline constexpr double heavy_share = 0.05;
+inline constexpr std::uint64_t heavy_fewest = 400;
+/// Share of a picture's pixels from which on it is told: among many pixels a few have such a sample by chance.
+inline constexpr double heavy_pixels = 0.01;
 
 }  // namespace interflect::montecarlo

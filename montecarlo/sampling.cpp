@@ -19,14 +19,21 @@ constexpr double pilot_margin = 1.5;  ///< for the noise of a pilot's own s²
 
 Tally sample_block(const SampledMeasurements& measurements, std::size_t m, std::uint64_t seed, std::uint64_t first,
                    std::uint64_t end) {
-  std::array<Spectrum, Waves::samples_per_block> samples;
+  std::array<Spectrum, Waves::samples_per_block> samples, light;
   Tally tally;
   for (; first < end; first += samples.size()) {
     const std::span<Spectrum> some = std::span(samples).first(std::min<std::uint64_t>(samples.size(), end - first));
-    measurements.sample(m, seed, static_cast<std::uint32_t>(m), first, some);
-    for (std::size_t k = 0; k < some.size(); ++k) tally.add(some[k], measurements.scene().weigh(some[k]), first + k);
+    measurements.sample_with_light(m, seed, static_cast<std::uint32_t>(m), first, some,
+                                   std::span(light).first(some.size()));
+    for (std::size_t k = 0; k < some.size(); ++k)
+      tally.add(some[k], measurements.scene().weigh(some[k]), first + k, light[k]);
   }
   return tally;
+}
+
+/// Weighed, of the light: what is a control variate's alone tells nothing of how rare that is.
+core::ScalarMoments known_of(const Tally& pilot) {
+  return pilot.found_none() ? core::ScalarMoments(pilot.moments.count(), 0, 0) : pilot.weighed;
 }
 
 /// One line where measurements ended at the cap and not at their target.
@@ -119,7 +126,7 @@ SamplingPlan plan_samples(const SampledMeasurements& measurements, const Samplin
     const double scale = measurements.scale(m),
                  largest = scale * measurements.scene().weigh(measurements.largest_score());
     const auto needed = [&](std::uint64_t seed, std::uint64_t samples) {
-      return samples_needed(sample_block(measurements, m, seed, 0, samples).weighed, scale, largest, target);
+      return samples_needed(known_of(sample_block(measurements, m, seed, 0, samples)), scale, largest, target);
     };
     std::uint64_t n = needed(first, pilot_samples);
     if (const std::uint64_t more = std::min(n / 8, largest_pilot); more > pilot_samples) {

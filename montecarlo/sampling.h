@@ -27,6 +27,12 @@ class SampledMeasurements {
   /// @param samples  overwritten
   virtual void sample(std::size_t measurement, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
                       std::span<Spectrum> samples) const = 0;
+  /// The same, with the light that each found, where samples are not that alone (Tally::add).
+  virtual void sample_with_light(std::size_t measurement, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
+                                 std::span<Spectrum> samples, std::span<Spectrum> light) const {
+    sample(measurement, seed, stream, first, samples);
+    std::copy(samples.begin(), samples.end(), light.begin());
+  }
 };
 
 /// Samples 0 .. counts[m] - 1 of every measurement m, sample k being keyed by (seed, m, k).
@@ -66,7 +72,7 @@ SamplingTarget target_of(const SamplingSettings& settings, const scene::Scene& s
 /// Samples until a measurement is as well known as is asked for, from samples that are thrown away:
 ///
 ///   n = 1.5 s² / target²,   s² of their weighted values, target = SamplingTarget::standard_error;
-///   3 w / n = target        where all scored zero (rule of three, as in Tally::estimate).
+///   3 w / n = target        where none found light (rule of three, as in Tally::estimate).
 ///
 /// The factor 1.5 covers the noise of s², so that nearly all measurements reach their target.
 /// @param largest_score  w, in the measurement's unit, weighed

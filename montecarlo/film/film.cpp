@@ -54,9 +54,9 @@ Film::Film(std::size_t pixels, int channels, int batches, bool leaves_out)
   if (batches != 0 && batches < 16) throw core::PreconditionError("film: at least 16 batches expected");
 }
 
-void Film::add(std::size_t pixel, const Spectrum& sample, double weighed) {
+void Film::add(std::size_t pixel, const Spectrum& sample, double weighed, const Spectrum& light) {
   const std::uint64_t index = samples(pixel);
-  tallies_[pixel].add(sample, weighed, index);
+  tallies_[pixel].add(sample, weighed, index, light);
   if (batches_ == 0 || !sample.is_finite()) return;
   const auto all = static_cast<std::size_t>(batches_);
   Batch& batch = of_batches_[pixel * all + index % all];
@@ -82,6 +82,7 @@ Estimate Film::noise_of(std::size_t pixel, const Spectrum& largest) const {
   Tally means = tallies_[pixel];
   means.moments = {};
   means.weighed = {};
+  means.without_light = Spectrum::zero();
   const double in_batch = static_cast<double>(samples(pixel)) / batches_;
   for (int b = 0; b < batches_; ++b) {
     const Batch& batch = of_batches_[pixel * static_cast<std::size_t>(batches_) + static_cast<std::size_t>(b)];
@@ -93,7 +94,7 @@ Estimate Film::noise_of(std::size_t pixel, const Spectrum& largest) const {
 }
 
 Index Film::state_columns() const {
-  return 6 + 2 * channels_ + batches_ * (channels_ + 1) + (left_out_.empty() ? 0 : channels_);
+  return 7 + 3 * channels_ + batches_ * (channels_ + 1) + (left_out_.empty() ? 0 : channels_);
 }
 
 FilmState Film::state() const {
@@ -107,6 +108,8 @@ FilmState Film::state() const {
     put(tally.weighed.mean());
     put(tally.weighed.squared_deviations());
     put(tally.largest_sample);
+    put(tally.sum_of_sizes);
+    put(tally.without_light, channels_);
     put(tally.not_finite);
     put(tally.first_not_finite);
     for (int b = 0; b < batches_; ++b) {
@@ -133,6 +136,8 @@ void Film::restore(const FilmState& state) {
     const double weighed = take.number();
     tally.weighed = {n, weighed, take.number()};
     tally.largest_sample = take.number();
+    tally.sum_of_sizes = take.number();
+    tally.without_light = take.spectrum(channels_);
     tally.not_finite = take.count();
     tally.first_not_finite = take.count();
     for (int b = 0; b < batches_; ++b) {

@@ -23,7 +23,9 @@ class Film {
 
   std::size_t pixels() const { return tallies_.size(); }
   /// The next sample of a pixel, with its weighed value.
-  void add(std::size_t pixel, const Spectrum& sample, double weighed);
+  void add(std::size_t pixel, const Spectrum& sample, double weighed) { add(pixel, sample, weighed, sample); }
+  /// @param light  as of Tally::add
+  void add(std::size_t pixel, const Spectrum& sample, double weighed, const Spectrum& light);
   /// Of a sample that was added.  @pre  samples do
   void leave_out(std::size_t pixel, const Spectrum& at_most) { left_out_[pixel] += at_most; }
   std::uint64_t samples(std::size_t pixel) const { return tallies_[pixel].moments.count(); }

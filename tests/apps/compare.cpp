@@ -68,6 +68,30 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
   }
 }
 
+// In the next run's folder nothing looks like its own that is not; what another command drew there is nobody else's.
+TEST(Compare, removes_the_pictures_of_the_comparison_before_and_no_others) {
+  const TemporaryFolder folder;
+  const auto compare = [&](const char* integrators) {
+    const Outcome outcome = interflect({"compare", shipped_scene("furnace"), "--integrators", integrators, "--target",
+                                        "20%", "--replications", "0", "--spp", "2", "-o", folder / "out"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  };
+  const auto there = [&](const char* name) { return std::filesystem::exists(folder.path() / "out" / name); };
+  std::filesystem::create_directory(folder / "out");
+  for (const char* name : {"out/controlled.png", "out/distributed.exr", "out/notes.txt"}) folder.write(name, "mine");
+  compare("path,light");
+  EXPECT_TRUE(there("path.exr") && there("path.png") && there("light.exr") && there("compared_light_path.png"));
+  json said = json::parse(read_file(folder / "out/compare.json"));
+  EXPECT_EQ(said.at("pictures"), json({"path.exr", "path.png", "light.exr", "light.png", "compared_light_path.png"}));
+  said.at("pictures").push_back("notes.txt");  // by someone else's hand
+  folder.write("out/compare.json", said.dump());
+  compare("path");
+  EXPECT_TRUE(there("path.exr") && there("path.png"));
+  EXPECT_FALSE(there("light.exr") || there("light.png") || there("compared_light_path.png"));
+  for (const char* name : {"out/controlled.png", "out/distributed.exr", "out/notes.txt"})
+    EXPECT_EQ(read_file(folder / name), "mine") << name;
+}
+
 // What one misses is left out on both sides, and said.
 TEST(Compare, compares_on_the_paths_that_both_find) {
   const TemporaryFolder folder;
@@ -102,6 +126,37 @@ TEST(Compare, writes_mean_irradiances_with_their_units) {
   }
   EXPECT_EQ(by_itself, 2 * 7);  // six sides and all together
   EXPECT_EQ(against, 2 * 7);
+}
+
+// More samples lower the noise; the bound is that of elements, made before, and stays.
+TEST(Compare, says_where_a_target_is_missed_by_a_bound_that_samples_do_not_lower) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("room.json", R"({ "format": "interflect/scene/1", "units": "m",
+  "materials": { "lamp": { "type": "diffuse", "reflectance": 0.5, "exitance": 1 },
+                 "wall": { "type": "diffuse", "reflectance": 0.5 } },
+  "geometry": [
+    { "polygon": [[0,0,0],[1,0,0],[1,1,0],[0,1,0]], "material": "lamp", "name": "floor" },
+    { "polygon": [[0,0,1],[0,1,1],[1,1,1],[1,0,1]], "material": "wall", "name": "ceiling" },
+    { "polygon": [[0,0,0],[0,1,0],[0,1,1],[0,0,1]], "material": "wall", "name": "west" } ] })");
+  const auto compare = [&](const char* target) {
+    const Outcome outcome = interflect({"compare", scene, "--integrators", "path,two-pass", "--target", target,
+                                        "--replications", "0", "-o", folder / "out"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const json kind = json::parse(read_file(folder / "out/compare.json")).at("kinds").at(0);
+    EXPECT_EQ(kind.at("integrators").at(0).at("misses_target_by_bound"), false);  // path tracing has no bound
+    return std::make_pair(outcome.out, kind.at("integrators").at(1));
+  };
+  const auto [few_said, few] = compare("20%");
+  const auto [many_said, many] = compare("0.25%");
+  EXPECT_LT(many.at("relative_noise"), .5 * few.at("relative_noise").get<double>());
+  EXPECT_NEAR(many.at("relative_bound").get<double>() / few.at("relative_bound").get<double>(), 1, .1);
+  const double bound = many.at("relative_bound");
+  ASSERT_TRUE(.0025 < bound && bound < .2) << bound;
+  EXPECT_EQ(few.at("misses_target_by_bound"), false);
+  EXPECT_EQ(many.at("misses_target_by_bound"), true);
+  const std::string line = "two-pass misses --target 0.25 % of surfaces by its error bound";
+  EXPECT_TRUE(contains(many_said, line) && contains(many_said, "more samples do not lower")) << many_said;
+  EXPECT_FALSE(contains(few_said, "misses --target")) << few_said;
 }
 
 TEST(Compare, lists_who_finds_nothing_that_is_asked_for) {

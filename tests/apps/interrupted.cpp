@@ -19,6 +19,44 @@ std::function<bool(const std::string&)> part_of(const std::string& stage) {
 
 nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(read_file(file)); }
 
+// A finished picture needs its checkpoint no more, unless it is to grow: then it does, to the bytes of one that had all at
+// once.
+TEST(Interrupted, a_finished_picture_leaves_a_checkpoint_where_it_is_to_grow) {
+  const TemporaryFolder folder;
+  const auto trace = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"trace", shipped_scene("furnace"), "-o", folder / (name + ".exr")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return interflect(arguments);
+  };
+  ASSERT_EQ(trace("whole", {"--spp", "3"}).status, 0);
+  const Outcome kept = trace("grown", {"--spp", "1", "--keep-checkpoint"});
+  ASSERT_EQ(kept.status, 0) << kept.err;
+  EXPECT_TRUE(contains(kept.out, "--resume goes on from")) << kept.out;
+  ASSERT_TRUE(std::filesystem::exists(folder / "grown.checkpoint.h5"));
+  const Outcome grown = trace("grown", {"--spp", "3", "--resume"});
+  ASSERT_EQ(grown.status, 0) << grown.err;
+  EXPECT_TRUE(read_file(folder / "grown.exr") == read_file(folder / "whole.exr"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "grown.checkpoint.h5"));
+  const Outcome again = trace("grown", {"--spp", "6", "--resume"});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_TRUE(contains(again.err, "there is no such checkpoint") && contains(again.err, "--keep-checkpoint"))
+      << again.err;
+}
+
+// Pictures of a comparison grow as those of `trace`: the one at work is kept with what it has.
+TEST(Interrupted, a_comparison_keeps_the_picture_that_it_is_at) {
+  const TemporaryFolder folder;
+  const Outcome compare = interflect({"compare", shipped_scene("furnace"), "--integrators", "path,light", "--target",
+                                      "20%", "--replications", "0", "--spp", "400", "-o", folder / "out"},
+                                     {.interrupt_when = part_of("rendering inside")});
+  EXPECT_EQ(compare.status, 1) << compare.err;
+  EXPECT_TRUE(contains(compare.err, "stopped: the picture by path has ")) << compare.err;
+  EXPECT_TRUE(contains(compare.err, "stopped: not every picture was drawn")) << compare.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/path.exr") && std::filesystem::exists(folder / "out/path.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/light.exr"));
+  EXPECT_EQ(json_of(folder / "out/compare.json").at("stopped"), true);
+}
+
 TEST(Interrupted, a_picture_is_kept_with_the_samples_so_far) {
   const TemporaryFolder folder;
   const Outcome trace = interflect(
@@ -47,7 +85,7 @@ TEST(Interrupted, a_picture_goes_on_to_the_same_bytes) {
   EXPECT_EQ(stopped.status, 1) << stopped.err;
   ASSERT_TRUE(std::filesystem::exists(folder / "parts.checkpoint.h5")) << stopped.err;
   EXPECT_TRUE(contains(stopped.out + stopped.err, "--resume goes on from")) << stopped.out << stopped.err;
-  const Outcome gone_on = trace("parts", {"--spp", "64", "--threads", "8", "--resume"});
+  const Outcome gone_on = trace("parts", {"--spp", "64", "--threads", "8", "--resume", "--keep-checkpoint"});
   EXPECT_EQ(gone_on.status, 0) << gone_on.err;
   for (const char* extension : {".exr", ".png"})
     EXPECT_TRUE(read_file(folder / ("parts" + std::string(extension))) ==

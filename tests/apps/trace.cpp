@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/vec.h"
+#include "results/image_file.h"
+#include "tests/apps/csv_rows.h"
 #include "tests/apps/program.h"
 
 // The command `trace`, as a user has it.
@@ -80,6 +84,102 @@ TEST(Trace, tells_how_many_samples_are_no_numbers) {
   EXPECT_EQ(said.at("pixels_samples_not_finite"), 0);
   EXPECT_EQ(said.at("estimates_samples_not_finite"), 0);
   EXPECT_TRUE(said.contains("pixels_by_one_sample") && said.contains("estimates_by_one_sample")) << outcome.out;
+}
+
+// By paths from lights the same surfaces.csv, in the same columns, within what both state; what light tracing does not
+// find is refused.
+TEST(Trace, has_estimates_by_either_integrator) {
+  const TemporaryFolder folder;
+  const auto trace = [&](const char* integrator, const char* scene) {
+    return interflect({"trace", shipped_scene(scene), "--spp", "1", "-o", folder / "p.png", "--estimates",
+                       folder / integrator, "--integrator", integrator, "--accuracy", "2%"});
+  };
+  for (const char* integrator : {"path", "light"}) {
+    const Outcome outcome = trace(integrator, "furnace");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(folder / integrator) / "surfaces.csv"));
+  }
+  const Outcome refused = trace("light", "materials");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(
+      refused.err,
+      "light: paths ASE (from a light with an area, by a mirror, pane or smooth glass) are not found at pixels"))
+      << refused.err;
+}
+
+// Unbiased by a solution, as the furnace tells; which paths count is free, and what radiosity cannot solve is refused in
+// the integrator's name.
+TEST(Trace, is_controlled_by_a_solution_where_there_can_be_one) {
+  const TemporaryFolder folder;
+  const auto trace = [&](const std::string& scene, const char* paths) {
+    return interflect({"trace", scene, "--spp", "4", "-o", folder / "c.exr", "--integrator", "controlled",
+                       "--estimates", folder / "tables", "--accuracy", "2%", "--paths", paths});
+  };
+  const Outcome furnace = trace(shipped_scene("furnace"), "L.*E");
+  ASSERT_EQ(furnace.status, 0) << furnace.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "tables/surfaces.csv"));
+  const core::Image image = results::read_exr(folder / "c.exr");
+  double sum = 0, variance = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      sum += image.at(x, y, 0);
+      variance += image.at(x, y, 1) * image.at(x, y, 1);
+    }
+  const double pixels = image.width * image.height, standard_error = std::sqrt(variance) / pixels;
+  EXPECT_LT(standard_error, 1e-3);
+  EXPECT_NEAR(sum / pixels, inv_pi, 5 * standard_error + 1e-6);
+  EXPECT_EQ(trace(shipped_scene("furnace"), "ADE").status, 0);
+  const Outcome bulb = trace(folder.write("bulb.json", bulb_and_lamp), "L.*E");
+  EXPECT_EQ(bulb.status, 2);
+  EXPECT_TRUE(contains(bulb.err, "controlled starts from a radiosity solution, as path does not, and there is none: "))
+      << bulb.err;
+  EXPECT_FALSE(contains(bulb.err, "two pass")) << bulb.err;
+}
+
+// In the furnace every pixel's radiance is 1 / pi (E = 1 - rho in a closed box).  Of 120 000 independent pixels the
+// mean is normal: 5 standard errors are exceeded with a probability of 6e-7.
+TEST(Trace, sees_the_furnace_as_bright_as_it_is_and_says_how_sure_it_is) {
+  const TemporaryFolder folder;
+  const Outcome trace = interflect({"trace", shipped_scene("furnace"), "--spp", "4", "-o", folder / "f.exr"});
+  ASSERT_EQ(trace.status, 0) << trace.err;
+  const core::Image image = results::read_exr(folder / "f.exr");
+  ASSERT_EQ(image.channels, (std::vector<std::string>{"y", "y.error", "samples"}));
+  double sum = 0, variance = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      sum += image.at(x, y, 0);
+      variance += image.at(x, y, 1) * image.at(x, y, 1);
+      EXPECT_EQ(image.at(x, y, 2), 4);
+    }
+  const double pixels = image.width * image.height, standard_error = std::sqrt(variance) / pixels;
+  EXPECT_EQ(pixels, 400 * 300);
+  EXPECT_LT(standard_error, 1e-3);
+  EXPECT_NEAR(sum / pixels, inv_pi, 5 * standard_error);
+}
+
+TEST(Trace, writes_both_pictures_and_repeats_itself) {
+  const TemporaryFolder folder;
+  for (const std::string threads : {"1", "3"}) {
+    const Outcome trace = interflect({"trace", shipped_scene("parallel_plates"), "--spp", "2", "--threads", threads,
+                                      "-o", folder / (threads + ".exr")});
+    ASSERT_EQ(trace.status, 0) << trace.err;
+  }
+  EXPECT_EQ(read_file(folder / "1.png").substr(0, 4), "\x89PNG");
+  EXPECT_EQ(read_file(folder / "1.exr"), read_file(folder / "3.exr"));
+}
+
+TEST(Trace, estimates_join_with_a_solution_on_names) {
+  const TemporaryFolder folder;
+  const Outcome trace = interflect({"trace", shipped_scene("cube"), "--spp", "1", "-o", folder / "c.exr", "--estimates",
+                                    folder / "traced", "--accuracy", "5%"});
+  ASSERT_EQ(trace.status, 0) << trace.err;
+  const auto rows = read_csv(folder / "traced/surfaces.csv");
+  ASSERT_EQ(rows.size(), 7u);
+  const auto floor = std::find_if(rows.begin(), rows.end(), [](const auto& row) { return row[0] == "floor"; });
+  ASSERT_NE(floor, rows.end());
+  // B = 1 + H / 2 is 1.1026 (the_cube_has_its_known_discrete_solution); 5 % of H = 0.2 are 0.005 of B, and elements
+  // leave 0.001.
+  EXPECT_NEAR(std::stod((*floor)[2]), 1.1026, 0.03);
 }
 
 }  // namespace

@@ -147,8 +147,8 @@ TEST(Bidirectional, weighs_lights_by_picks_for_what_is_measured) {
                     {asked(scene::Side::front), asked(scene::Side::back)}, .002);
 }
 
-// Joined within rough glass: what passes its two faces is squeezed at one and spread at the other.
-TEST(Bidirectional, joins_walks_within_rough_glass) {
+/// A slab of rough glass between a lamp above and a floor, with a camera inside of it.
+scene::Scene slab(const Vec3& camera_target) {
   SceneBuilder builder({"grey"});
   scene::Material glass;
   glass.finish = scene::Glass{1.5, .5};
@@ -158,12 +158,36 @@ TEST(Bidirectional, joins_walks_within_rough_glass) {
                       builder.add_material(test::diffuse("f", .5, 0)));
   builder.add_polygon("lamp", test::parallelogram(Vec3(-.5, -.5, .7), y, x),
                       builder.add_material(test::diffuse("l", .5, 1)));
-  builder.scene().cameras.push_back({"c", Vec3(0, 0, .2), Vec3(0, 0, -1), y, 40, 1, 1});
-  const scene::Scene scene = builder.finish();
+  builder.scene().cameras.push_back({"c", Vec3(0, 0, .2), camera_target, y, 40, 1, 1});
+  return builder.finish();
+}
+
+// Joined within rough glass: what passes its two faces is squeezed at one and spread at the other.
+TEST(Bidirectional, joins_walks_within_rough_glass) {
+  const scene::Scene scene = slab(Vec3(0, 0, -1));
   test::expect_same(BidirectionalTracer({.samples = 200'000}), PathTracer({.samples = 800'000}), scene,
                     {measure::Flux{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)},
                      measure::PointIrradiance{Vec3(0, 0, .2), z, {}}, measure::PixelRadiance{{0}, 0, 0}},
                     .01);
+}
+
+// One face of it between lamp and camera: paths of two edges, met, joined and splatted, each unweighed.  Radiance gains
+// the square of the index there, 2.25, whoever carries it.
+TEST(Bidirectional, passes_rough_glass_the_same_by_each_strategy_alone) {
+  const scene::Scene scene = slab(Vec3(0, 0, 1));
+  const measure::Measurement pixel = measure::PixelRadiance{{0}, 0, 0};
+  const auto alone = [&](int s, int t) {
+    core::LocalRun run(static_cast<std::uint64_t>(10 * s + t));
+    return BidirectionalTracer({.samples = 100'000, .only = BidirectionalStrategy{s, t}})
+        .answer(scene, {&pixel, 1}, run.get())[0];
+  };
+  const Estimate known = alone(0, 3);
+  for (const auto& [s, t] : {std::pair(1, 2), std::pair(2, 1)}) {
+    const Estimate found = alone(s, t);
+    const double error = std::hypot(known.standard_error[0], found.standard_error[0]);
+    EXPECT_NEAR(found.value[0], known.value[0], test::critical_z(test::alpha, 2) * error) << s << ", " << t;
+    EXPECT_LT(error, .1 * known.value[0]) << s << ", " << t;
+  }
 }
 
 // A small lamp's light through glass onto a floor that a camera sees: found by paths from the lamp, which few of the

@@ -131,20 +131,27 @@ TEST(Cameras, focus_on_what_is_at_their_distance) {
     builder.scene().cameras.push_back(
         {"lens", Vec3(0, 0, 0), -Vec3::UnitZ(), Vec3::UnitY(), ThinLens{90, 0.5, 1}, 8, 8});
     const Scene scene = builder.finish();
-    core::LocalRun run;
-    const Rendering found = render(scene, {0}, 4096, run);
+    const auto rays = raycast::make_ray_caster("embree", scene);
     // Of the plane a pixel is 1/4 wide; the edge is blurred over a disk of radius 1/4 there: pixels 3 and 4 lie in it.
     // Left of the edge by a in units of the radius, uniform in [0, 1], the disk is cut off beyond a:
     // mean dark part = int_0^1 (acos a - a sqrt(1 - a²)) / pi da = (1 - 1/3) / pi.
     const double dark = z == 1 ? 0 : 2 / (3 * pi);
-    for (int y = 0; y < 8; ++y)
-      for (int x = 0; x < 8; ++x) {
-        const double truth = x < 3 ? 1 : x == 3 ? 1 - dark : x == 4 ? dark : 0;
-        const double L = found.radiance.at(x, y, 0), se = found.standard_error.at(x, y, 0);
-        EXPECT_LE(std::abs(L - truth),
-                  (truth == 0 ? 0 : 1e-6) + test::critical_z(test::alpha, 128) * (truth == 0 ? 0 : se))
-            << z << ' ' << x << ' ' << y;
-      }
+    for (const char* integrator : {"path", "bidirectional", "distributed", "whitted"}) {
+      RenderSettings settings;
+      settings.integrator = integrator;
+      settings.samples = 4096;
+      settings.paths = measure::PathClasses::of("AE");
+      core::LocalRun run;
+      const Rendering found = render(scene, {0}, settings, run, *rays);
+      for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+          const double truth = x < 3 ? 1 : x == 3 ? 1 - dark : x == 4 ? dark : 0;
+          const double L = found.radiance.at(x, y, 0), se = found.standard_error.at(x, y, 0);
+          EXPECT_LE(std::abs(L - truth),
+                    (truth == 0 ? 0 : 1e-6) + test::critical_z(test::alpha, 512) * (truth == 0 ? 0 : se))
+              << integrator << ' ' << z << ' ' << x << ' ' << y;
+        }
+    }
   }
 }
 

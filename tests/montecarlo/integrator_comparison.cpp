@@ -126,6 +126,10 @@ TEST(IntegratorComparison, has_an_efficiency_that_counts_noise_and_bias) {
   EXPECT_NEAR(trial.efficiency(scene), 1 / (.01 * 2), 1e-9);
   trial.found[0] = known(10, .6, .8);  // .36 + .64 = 1
   EXPECT_NEAR(trial.efficiency(scene), 1 / (.01 * 2), 1e-9);
+  const RelativeErrors errors = trial.relative_errors(scene);  // .06 and .1 of noise, .08 and 0 of bounds
+  EXPECT_NEAR(errors.noise, std::sqrt((.0036 + .01) / 2), 1e-12);
+  EXPECT_NEAR(errors.bound, std::sqrt(.0064 / 2), 1e-12);
+  EXPECT_EQ(errors.over, 2u);        // not of what is dark
   trial.found[1] = known(20, 6, 0);  // (.01 + .09) / 2
   EXPECT_NEAR(trial.efficiency(scene), 1 / (.05 * 2), 1e-9);
 }

@@ -2,9 +2,8 @@
 
 #include <functional>
 
-#include "core/moments.h"
+#include "montecarlo/light/balls.h"
 #include "montecarlo/light/environment.h"
-#include "montecarlo/light/light_set.h"
 #include "montecarlo/light/point.h"
 #include "montecarlo/light/rectangle.h"
 #include "montecarlo/light/sky.h"
@@ -13,33 +12,25 @@
 #include "montecarlo/light/sun.h"
 #include "montecarlo/light/triangle.h"
 #include "montecarlo/warp/cone.h"
+#include "tests/montecarlo/light_numbers.h"
+#include "tests/montecarlo/statistics.h"
 #include "tests/support/chi_squared.h"
-#include "tests/support/shapes.h"
 
-// Lights by themselves: what they draw, how densely, and what it is worth.  (In paths: lit_scenes.cpp.)
+// Lights by themselves: what they draw, how densely, and what it is worth.  (Picks among many: light_tree.cpp; solid
+// angles: light_warps.cpp; in paths: lit_scenes.cpp.)
 namespace interflect::montecarlo {
 namespace {
 
-Spectrum grey(double value) {
-  Spectrum s;
-  s[0] = value;
-  return s;
-}
+using test::grey;
+using test::numbers_of;
 
-constexpr double almost_one = 1 - 0x1p-53;
-constexpr double alpha = 1e-3;  ///< of all chi-squared tests of this file together, which are fewer than 64
+/// Of each chi-squared test of this file, which has fewer than 64.
+constexpr double alpha_of_one = test::alpha / 64;
 
 Spectrum colour(double a, double b) {
   Spectrum s;
   s[0] = a, s[1] = b;
   return s;
-}
-
-std::array<double, 4> numbers_of(std::uint32_t stream, std::uint64_t k) {
-  core::RandomNumbers numbers(11, stream, k);
-  std::array<double, 4> u;
-  for (double& each : u) each = numbers.next();
-  return u;
 }
 
 const geometry::Box unit_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
@@ -204,7 +195,7 @@ TEST(Lights, draw_what_arrives_as_they_say) {
       }
     }
     EXPECT_GT(drawn, 0);
-    test::expect_as_expected(counts, expected, alpha / 64, of.name);
+    test::expect_as_expected(counts, expected, alpha_of_one, of.name);
   }
 }
 
@@ -273,93 +264,7 @@ TEST(Spots, send_a_flux_of_closed_form) {
       expected[static_cast<std::size_t>((cosine + 1) / 2 * bins)] +=
           m * light.pdfs_emission({}, way).solid_angle * 4 * pi / n;
     }
-    test::expect_as_expected(counts, expected, alpha / 64, "spot");
-  }
-}
-
-TEST(Warps, of_solid_angles_go_there_and_back) {
-  const SphericalRectangle rectangle(Vec3::Zero(), Vec3(-.3, .2, .7), Vec3::UnitX(), Vec3::UnitY(), 1.2, 1.3);
-  const SphericalTriangle triangle(
-      {Vec3(.5, -.2, 1).normalized(), Vec3(1.2, .4, .8).normalized(), Vec3(-.1, .9, .6).normalized()});
-  std::vector<double> weights{0, 1, 5, 0, 2, 0, 0, 0, 0, 0, 3, 0};
-  const CellTable table(3, 4, weights);
-  for (std::uint64_t k = 0; k < 20'000; ++k) {
-    const auto r = numbers_of(70, k);
-    const Vec2 u(r[0], r[1]);
-    EXPECT_NEAR((rectangle.inverse(rectangle.point(u[0], u[1])) - u).norm(), 0, 1e-12);
-    EXPECT_NEAR((triangle.inverse(triangle.direction(u[0], u[1])) - u).norm(), 0, 1e-12);
-    for (const double cone : {1.0814e-5, .1, 1., 2.})
-      EXPECT_NEAR((uniform_cone_inverse(cone, uniform_cone(cone, u[0], u[1])) - u).norm(), 0, 1e-11) << cone;
-    EXPECT_NEAR((table.inverse(table.pick(u[0], u[1])) - u).norm(), 0, 1e-12);
-    const auto cell = table.pick(u[0], u[1]);
-    EXPECT_GT(table.probability(cell.row.cell, cell.column.cell), 0);
-  }
-  for (const double u : {0., almost_one})
-    for (const double v : {0., almost_one}) {
-      EXPECT_TRUE(rectangle.point(u, v).allFinite());
-      EXPECT_TRUE(triangle.direction(u, v).allFinite());
-      const auto cell = table.pick(u, v);
-      EXPECT_GT(table.probability(cell.row.cell, cell.column.cell), 0);
-    }
-}
-
-// Solid angles and form factors that are known (docs/truths.md; by independent code).
-TEST(Warps, of_solid_angles_have_known_ones) {
-  const SphericalRectangle rectangle(Vec3::Zero(), Vec3(-.3, .2, .7), Vec3::UnitX(), Vec3::UnitY(), 1.2, 1.3);
-  EXPECT_NEAR(rectangle.solid_angle(), .835046076395, 1e-12);
-  const SphericalTriangle triangle(
-      {Vec3(.5, -.2, 1).normalized(), Vec3(1.2, .4, .8).normalized(), Vec3(-.1, .9, .6).normalized()});
-  EXPECT_NEAR(triangle.solid_angle(), .439890018163, 1e-12);
-  EXPECT_NEAR(SphericalTriangle({Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}).solid_angle(), pi / 2, 1e-14);
-  const double s = std::sqrt(.5);
-  EXPECT_NEAR(SphericalTriangle({Vec3::UnitZ(), Vec3(s, 0, s), Vec3(0, s, s)}).solid_angle(), .3398369094541219, 1e-14);
-  double of_rectangle = 0, of_triangle = 0;
-  constexpr int n = 800;
-  for (int a = 0; a < n; ++a)
-    for (int b = 0; b < n; ++b) {
-      const double u = (a + .5) / n, v = (b + .5) / n;
-      const Vec2 y = rectangle.point(u, v);
-      of_rectangle += .7 / Vec3(-.3 + y.x(), .2 + y.y(), .7).norm();
-      of_triangle += triangle.direction(u, v).z();
-    }
-  EXPECT_NEAR(of_rectangle * rectangle.solid_angle() / pi / n / n, .18844500, 1e-7);
-  EXPECT_NEAR(of_triangle * triangle.solid_angle() / pi / n / n, .10692718, 3e-7);  // sqrt(v) at a corner
-}
-
-/// Relative variance of one sample of the irradiance, by midpoints of its two numbers.
-template <class Sample>
-double relative_variance(const Sample& sample) {
-  constexpr int n = 1000;
-  double sum = 0, squares = 0;
-  for (int a = 0; a < n; ++a)
-    for (int b = 0; b < n; ++b) {
-      const double f = sample((a + .5) / n, (b + .5) / n);
-      sum += f, squares += f * f;
-    }
-  return squares * n * n / (sum * sum) - 1;
-}
-
-// A sampler by solid angle that has the first column is one by area.
-TEST(RectangleLight, has_the_variance_of_what_it_says_it_draws_by) {
-  const struct {
-    double h, area, solid_angle;
-  } known[] = {{.05, 42.1385, .232815}, {.1, 10.3151, .163391},  {.25, 1.445459, .059803},
-               {.5, .255292, .014488},  {1, .0303545, .0018731}, {2, .0024842, .00015510}};
-  for (const auto& [h, area, solid_angle] : known) {
-    const RectangleLight light(Vec3(-.5, -.5, h), Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitZ(), grey(1));
-    const Place at{Vec3::Zero(), Vec3::UnitZ()};
-    const double found = relative_variance([&](double u, double v) {
-      const auto s = light.sample_arriving(at, u, v);
-      return s->way.z() / s->pdf_solid_angle;
-    });
-    const double expected = h < std::sqrt(.5) ? solid_angle : area;  // half its diameter
-    EXPECT_NEAR(found, expected, 1e-3 * expected) << h;
-    const SphericalRectangle seen(Vec3::Zero(), Vec3(-.5, -.5, h), Vec3::UnitX(), Vec3::UnitY(), 1, 1);
-    const double by_solid_angle = relative_variance([&](double u, double v) {
-      const Vec2 y = seen.point(u, v);
-      return h / Vec3(y.x() - .5, y.y() - .5, h).norm();
-    });
-    EXPECT_NEAR(by_solid_angle, solid_angle, 1e-3 * solid_angle) << h;
+    test::expect_as_expected(counts, expected, alpha_of_one, "spot");
   }
 }
 
@@ -435,134 +340,6 @@ TEST(BallLight, is_dark_within) {
   EXPECT_EQ(light.pdf_arriving_solid_angle(within, Vec3::UnitX(), Vec3(3, 0, 0)), 0);
   EXPECT_TRUE(light.radiance(Vec3(3, 0, 0), -Vec3::UnitX()).is_zero());
   EXPECT_NEAR(light.flux()[0], 4 * pi * 4 * 3, 1e-12);
-}
-
-// One rectangle is one light, whatever its facets; what is none is a light a facet; and points of each are known again.
-TEST(LightSet, picks_by_power_and_knows_its_lights_at_hits) {
-  scene::SceneBuilder builder({"a", "b"});
-  scene::Material bright, dim;
-  bright.exitance = colour(2, 10);
-  dim.exitance = colour(1, 0);
-  const auto big = builder.add_material(dim), small = builder.add_material(bright), none = builder.add_material({});
-  builder.add_box("big", {Vec3(0, 0, 0), Vec3(2, 2, 2)}, big);
-  builder.add_box("dark", {Vec3(0, 0, 4), Vec3(2, 2, 5)}, none);
-  builder.add_polygon("kite", {{Vec3(5, 0, 0), Vec3(5.1, 0, 0), Vec3(5.2, .3, 0), Vec3(5, .1, 0)}, {}}, small);
-  const scene::Scene scene = builder.finish();
-  const LightSet lights(scene, LightSet::Picking::by_power);
-  ASSERT_EQ(lights.size(), 6u + 2u);
-  EXPECT_EQ(lights.of_facet(0), lights.of_facet(1));
-  EXPECT_FALSE(lights.of_facet(12));
-  double power = 0, sum = 0;
-  for (std::uint32_t l = 0; l < lights.size(); ++l) power += lights[l].flux().max();
-  EXPECT_NEAR(power, 24 + 10 * scene.area(scene::SurfaceId{12}), 1e-12);
-  EXPECT_NEAR(lights.flux()[1], 10 * scene.area(scene::SurfaceId{12}), 1e-12);
-  const Place at{Vec3(1, 1, 3), Vec3::Zero()};
-  for (std::uint32_t l = 0; l < lights.size(); ++l) {
-    EXPECT_NEAR(lights.probability(l, at), lights[l].flux().max() / power, 1e-14);
-    sum += lights.probability(l, at);
-  }
-  EXPECT_NEAR(sum, 1, 1e-14);
-  EXPECT_EQ(lights.largest_find(), colour(2, 10));
-}
-
-/// Lights of all kinds with powers 1 to 1e6 in a cube, and some beyond.
-std::vector<std::unique_ptr<Light>> many_lights(int n, double scale) {
-  std::vector<std::unique_ptr<Light>> lights;
-  core::RandomNumbers numbers(3, 0, 0);
-  for (int k = 0; k < n; ++k) {
-    const Vec3 x = scale * Vec3(10 * test::random_point(numbers));
-    const Vec3 way = test::cosine_about(-Vec3::UnitZ(), numbers);
-    const Spectrum power = grey(std::pow(10, 6 * numbers.next()));
-    switch (k % 4) {
-      case 0:
-        lights.push_back(std::make_unique<PointSource>(scene::PointLight{"p", x, power}));
-        break;
-      case 1:
-        lights.push_back(std::make_unique<Spot>(scene::SpotLight{"s", x, way, power, .95, .8}));
-        break;
-      case 2: {
-        const Vec3 u = scale * .2 * way.cross(Vec3::UnitX()).normalized(), v = way.cross(u);
-        lights.push_back(std::make_unique<RectangleLight>(x, u, v, way, power));
-        break;
-      }
-      default:
-        lights.push_back(std::make_unique<BallLight>(scene::SphereLight{"b", x, .05 * scale, power}));
-    }
-  }
-  return lights;
-}
-
-// At a hundred places: probabilities add up to 1, are those that picks tell, bit by bit, and with which picks come; and
-// no light that gives anything there is never picked.
-TEST(LightTree, picks_as_it_says_and_forgets_no_light) {
-  for (const double scale : {1., 1e-6, 1e6}) {
-    const auto lights = many_lights(10'000, scale);
-    std::vector<LightExtent> extents;
-    for (const auto& light : lights) extents.push_back(light->extent());
-    const LightTree tree(extents);
-    EXPECT_LE(tree.depth(), 60);
-    core::RandomNumbers places(4, 0, 0);
-    for (int p = 0; p < (scale == 1 ? 100 : 5); ++p) {
-      const Vec3 x = scale * Vec3(12 * test::random_point(places) - Vec3(1, 1, 1));
-      const Place at{x, p % 5 == 0 ? Vec3(Vec3::Zero()) : test::cosine_about(Vec3::UnitZ(), places)};
-      std::vector<double> expected(lights.size()), counts(lights.size());
-      double sum = 0;
-      constexpr int n = 20'000;
-      for (std::uint32_t l = 0; l < lights.size(); ++l) {
-        const double probability = tree.probability(l, at);
-        sum += probability;
-        expected[l] = n * probability;
-        if (probability > 0) continue;
-        for (std::uint64_t k = 0; k < 8; ++k) {
-          const auto u = numbers_of(200, k);
-          const auto s = lights[l]->sample_arriving(at, u[0], u[1]);
-          EXPECT_TRUE(!s || s->light.is_zero() || (!at.normal.isZero() && s->way.dot(at.normal) <= 0));
-        }
-      }
-      EXPECT_NEAR(sum, 1, 1e-12);
-      for (std::uint64_t k = 0; k < n; ++k) {
-        const auto picked = tree.pick(at, numbers_of(static_cast<std::uint32_t>(300 + p), k)[0]);
-        ++counts[picked.light];
-        ASSERT_EQ(picked.probability, tree.probability(picked.light, at));
-      }
-      test::expect_as_expected(counts, expected, alpha / 128, "place " + std::to_string(p));
-    }
-  }
-}
-
-// With one light on at a time, what picks find over their probability is on average what the light gives directly.
-TEST(LightTree, finds_each_light_as_bright_as_it_is) {
-  const auto lights = many_lights(400, 1);
-  std::vector<LightExtent> extents;
-  for (const auto& light : lights) extents.push_back(light->extent());
-  const LightTree tree(extents);
-  const Place at{Vec3(5, 4, -.5), Vec3::UnitZ()};
-  const auto score = [&](std::uint32_t l, double u, double v) {  // of one draw, over the chance of the pick
-    const auto arriving = lights[l]->sample_arriving(at, u, v);
-    if (!arriving) return 0.0;
-    const double cosine = std::max(0.0, at.normal.dot(arriving->way));
-    return arriving->light[0] * cosine / (arriving->pdf_solid_angle > 0 ? arriving->pdf_solid_angle : 1);
-  };
-  constexpr int n = 400'000, fine = 64;
-  std::vector<core::ScalarMoments> found(lights.size());
-  std::vector<int> picks(lights.size());
-  for (std::uint64_t k = 0; k < n; ++k) {
-    const auto u = numbers_of(400, k);
-    const auto picked = tree.pick(at, u[0]);
-    ++picks[picked.light];
-    found[picked.light].add(score(picked.light, u[1], u[2]) / picked.probability);
-  }
-  int looked_at = 0;
-  for (std::uint32_t l = 0; l < lights.size(); ++l) {
-    if (picks[l] < 100) continue;  // too rare to be normal
-    double truth = 0;
-    for (int i = 0; i < fine; ++i)
-      for (int j = 0; j < fine; ++j) truth += score(l, (i + .5) / fine, (j + .5) / fine) / (fine * fine);
-    found[l].merge(core::ScalarMoments(n - found[l].count(), 0, 0));  // all other picks
-    EXPECT_NEAR(found[l].mean(), truth, 5.2 * found[l].standard_error() + 2e-3 * truth) << l;
-    ++looked_at;
-  }
-  EXPECT_GT(looked_at, 50);
 }
 
 }  // namespace

@@ -334,7 +334,8 @@ TEST(Whitted, ends_between_mirrors_and_says_what_it_left_out) {
   // And a run that goes on.
   FilmState half;
   RenderCheckpoints checkpoints;
-  checkpoints.seconds_between = 0, checkpoints.keep = [&](const FilmState& state) { half = state; };
+  checkpoints.seconds_between = 0, checkpoints.at_end = true;
+  checkpoints.keep = [&](const FilmState& state) { half = state; };
   settings.samples = 32;
   render(scene, {0}, settings, run, *rays, checkpoints);
   checkpoints = {&half};

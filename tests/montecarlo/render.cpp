@@ -251,7 +251,7 @@ TEST(Render, keeps_states_on_the_way) {
   const RenderSettings settings = settings_with(100, "box", "independent");
   std::vector<FilmState> kept;
   RenderCheckpoints checkpoints;
-  checkpoints.seconds_between = 0;
+  checkpoints.seconds_between = 0, checkpoints.at_end = true;
   checkpoints.keep = [&](const FilmState& state) { kept.push_back(state); };
   const Rendering expected = render(scene, {0}, settings, run, *rays, checkpoints);
   ASSERT_GT(kept.size(), 3u);
@@ -282,7 +282,7 @@ TEST(Render, goes_on_from_any_number_of_samples) {
       const FilmState before = state;
       RenderCheckpoints checkpoints;
       if (from_state) checkpoints.from = &before;
-      checkpoints.seconds_between = 0;
+      checkpoints.seconds_between = 0, checkpoints.at_end = true;
       checkpoints.keep = [&](const FilmState& now) { state = now; };
       return render(scene, {0}, settings, run, *rays, checkpoints);
     };
@@ -301,7 +301,7 @@ TEST(Render, goes_on_from_pixels_that_are_further_than_others) {
     const auto state_at = [&](std::uint64_t samples) {
       FilmState state;
       RenderCheckpoints checkpoints;
-      checkpoints.seconds_between = 0;
+      checkpoints.seconds_between = 0, checkpoints.at_end = true;
       checkpoints.keep = [&](const FilmState& now) { state = now; };
       render(scene, {0}, settings_with(samples, "box", sequence), run, *rays, checkpoints);
       return state;

@@ -23,7 +23,7 @@ Tally with_one_of(double largest, int ones) {
   return tally;
 }
 
-// 5 %, and of few samples 20 times what each is on average.
+// More than 5 %, of no fewer than 400.
 TEST(SampleReport, tells_where_one_sample_is_much) {
   SampleReport report;
   report.add(0, with_one_of(1, 999));
@@ -31,16 +31,36 @@ TEST(SampleReport, tells_where_one_sample_is_much) {
   report.add(2, with_one_of(100, 900));  // 10 %
   report.add(3, with_one_of(60, 940));   // 6 %
   report.add(4, with_one_of(1, 3));      // a quarter, as each is
-  report.add(5, with_one_of(8, 63));     // 11 %, 7 times the mean
-  report.add(6, with_one_of(60, 60));    // half, 30 times
+  report.add(5, with_one_of(42, 63));    // 40 % of 64
+  report.add(6, with_one_of(398, 398));  // half of 399
+  report.add(7, with_one_of(399, 399));  // half of 400
   ASSERT_EQ(report.heavy.size(), 3u);
   EXPECT_EQ(report.heavy[0].measurement, 2u);
   EXPECT_EQ(report.heavy[1].measurement, 3u);
-  EXPECT_EQ(report.heavy[2].measurement, 6u);
+  EXPECT_EQ(report.heavy[2].measurement, 7u);
   EXPECT_DOUBLE_EQ(report.heavy[1].share, .06);
-  EXPECT_EQ(report.heavy_text({"a", "b", "c", "d", "e", "f", "desk"}),
-            "one sample carries 50 % of desk: its error may be understated; so in 3 of 7");
+  EXPECT_EQ(report.heavy_text({"a", "b", "c", "d", "e", "f", "g", "desk"}),
+            "one sample carries 50 % of desk: its error may be understated; so in 3 of 8");
   EXPECT_EQ(SampleReport().heavy_text({}), "");
+}
+
+// Of sizes: what samples with signs leave of each other is no measure of how much one of them is.
+TEST(SampleReport, shares_are_of_all_sizes) {
+  Tally tally;
+  for (int k = 0; k < 500; ++k) tally.add(test::grey(k % 2 == 0 ? 1 : -1), k % 2 == 0 ? 1 : -1, 0);
+  EXPECT_DOUBLE_EQ(tally.share_of_one(), .002);
+  EXPECT_EQ(Tally().share_of_one(), 0);
+}
+
+// Two pixels of 201 are less than 1 %, two of 200 are not.
+TEST(SampleReport, tells_of_a_picture_by_its_share_of_pixels) {
+  SampleReport report;
+  report.add(17, with_one_of(60, 940));  // 6 %
+  EXPECT_EQ(report.heavy_text_of_picture(20, 10), "");
+  report.add(43, with_one_of(100, 900));  // 10 %
+  EXPECT_EQ(report.heavy_text_of_picture(201, 1), "");
+  const std::string text = report.heavy_text_of_picture(20, 10);
+  EXPECT_EQ(text.find("in 1 % of the pixels one sample carries much, most in (3, 2), 10 %"), 0u) << text;
 }
 
 class EveryReport : public testing::TestWithParam<std::string> {

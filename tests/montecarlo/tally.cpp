@@ -39,6 +39,24 @@ TEST(Tally, a_channel_that_never_scored_has_the_standard_error_of_the_rule_of_th
   EXPECT_TRUE(std::isnan(found.weighed_standard_error));  // what may hide in channel 1 is in no sample
 }
 
+// Samples that are a control variate's alone: their noise says nothing of light that none of them found.
+TEST(Tally, a_channel_without_light_has_the_rule_of_three_at_least_whatever_a_control_made_of_it) {
+  Tally tally, rest;
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    Spectrum light;
+    light[1] = k == 70 ? 5 : 0;
+    const double control = k % 2 == 0 ? 1 : -1;
+    (k < 30 ? tally : rest).add(light + Spectrum(control), control, k, light);
+  }
+  EXPECT_TRUE(tally.found_none());
+  tally.merge(rest);
+  EXPECT_FALSE(tally.found_none());
+  const Estimate found = tally.estimate(Spectrum(50));
+  EXPECT_DOUBLE_EQ(found.standard_error[0], 3 * 50 / 100.0);
+  EXPECT_LT(found.standard_error[1], .2);
+  EXPECT_NEAR(tally.estimate(Spectrum(1)).standard_error[0], std::sqrt(1 / 99.0), 1e-15);  // what is more holds
+}
+
 // Two channels that never score together: the sum of the two is 1 always, though each has noise.
 TEST(Tally, the_noise_of_the_weighted_value_is_measured_and_not_made_up_from_the_channels) {
   Tally tally, rest;

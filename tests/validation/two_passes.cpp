@@ -250,7 +250,7 @@ TEST(TwoPasses, make_pictures_of_their_pixels) {
     settings.samples = 20;
     core::LocalRun three(5, 3);
     montecarlo::RenderCheckpoints keep;
-    keep.seconds_between = 0;
+    keep.seconds_between = 0, keep.at_end = true;
     keep.keep = [&](const montecarlo::FilmState& now) { state = now; };
     montecarlo::render(scene, {0}, settings, three.get(), *rays, keep);
     settings.samples = 64;

@@ -1,0 +1,237 @@
+#include "apps/comparison_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "apps/table.h"
+#include "core/format.h"
+#include "montecarlo/integrators.h"
+#include "montecarlo/measurable.h"
+#include "montecarlo/tally.h"
+#include "results/csv.h"
+
+namespace interflect::apps {
+namespace {
+
+using Compared = IntegratorsCompared;
+using montecarlo::IntegratorPair;
+using montecarlo::IntegratorTrial;
+using validation::Agreement;
+using validation::MeanAgreement;
+
+std::string pair_name(const Compared& of, const IntegratorPair& pair) {
+  return of.comparison.trials[pair.a].integrator + " - " + of.comparison.trials[pair.b].integrator;
+}
+
+/// One of the paths that either misses, on which they are not held against each other.
+std::string missed_by(const Compared& of, const IntegratorPair& pair) {
+  const std::string &a = of.comparison.trials[pair.a].missed, &b = of.comparison.trials[pair.b].missed;
+  return a.empty() || a == b ? b : b.empty() ? a : a + ", " + b;
+}
+
+const char* verdict(const std::vector<Compared>& all) {
+  if (!all_agree(all)) return "THEY DO NOT AGREE";
+  const bool any = std::any_of(all.begin(), all.end(), [](const Compared& of) { return !of.agreements.empty(); });
+  return any ? "all agree" : "nothing was held against anything";
+}
+
+std::string efficiency_table(const scene::Scene& scene, const std::vector<Compared>& all) {
+  Table table(
+      {"measured", "integrator", "samples", "processor s", "error %", "of it bound %", "efficiency 1/s", "but paths"});
+  for (const Compared& of : all)
+    for (const IntegratorTrial& trial : of.comparison.trials) {
+      if (!trial.refused.empty()) continue;
+      std::uint64_t samples = 0;
+      for (const Estimate& each : trial.found) samples = std::max(samples, each.samples);
+      const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
+      const bool known = errors.over > 0;
+      table.add({of.kind.name, trial.integrator, core::format_count(samples),
+                 core::format("%.3g", trial.processor_seconds), known ? core::format("%.2g", 100 * errors.both()) : "-",
+                 errors.bound > 0 ? core::format("%.2g", 100 * errors.bound) : "",
+                 core::format("%.3g", trial.efficiency(scene)), trial.missed});
+    }
+  return table.text();
+}
+
+/// Of integrators whose error bound is that of a solution made before: samples do not lower it.
+bool is_beyond_by_its_bound(const scene::Scene& scene, const IntegratorTrial& trial, double target) {
+  return montecarlo::integrator_entry(trial.integrator).inherits_error && trial.relative_errors(scene).bound > target;
+}
+
+std::string agreement_table(const std::vector<Compared>& all, double z_max) {
+  Table table({"measured", "held against each other", "comparisons", "largest z", "allowed", "beyond", "worst",
+               "mean z", "allowed", "but paths"});
+  for (const Compared& of : all)
+    for (std::size_t p = 0; p < of.agreements.size(); ++p) {
+      const Agreement& a = of.agreements[p];
+      const MeanAgreement& mean = of.means[p];
+      table.add({of.kind.name, pair_name(of, of.comparison.pairs[p]), core::format_count(a.comparisons),
+                 core::format("%.2f", a.largest_z), core::format("%.2f", z_max), core::format_count(a.beyond),
+                 of.kind.names[a.worst], core::format("%+.2f", mean.judged ? mean.mean : a.mean_z),
+                 mean.judged ? core::format("%.2f%s", mean.allowed, mean.agrees() ? "" : ", BEYOND") : "not judged",
+                 missed_by(of, of.comparison.pairs[p])});
+    }
+  return table.text();
+}
+
+/// Of each run: what samples were no numbers, and where one is much.
+std::string sample_texts(const std::vector<Compared>& all) {
+  std::string text;
+  for (const Compared& of : all) {
+    const auto add = [&](const std::string& who, const montecarlo::SampleReport& report) {
+      if (!report.heavy.empty()) text += of.kind.name + " by " + who + ": " + report.heavy_text(of.kind.names) + "\n";
+      if (report.not_finite > 0)
+        text += core::format("%s by %s: %llu samples were not finite and count as zero: a bug\n", of.kind.name.c_str(),
+                             who.c_str(), static_cast<unsigned long long>(report.not_finite));
+    };
+    for (const IntegratorTrial& trial : of.comparison.trials) add(trial.integrator, trial.report);
+    for (const IntegratorPair& pair : of.comparison.pairs) add(pair_name(of, pair), pair.report);
+  }
+  return text;
+}
+
+/// Of each integrator that no number of samples brings to the target, how far it is from that, and why.
+std::string bound_texts(const scene::Scene& scene, const std::vector<Compared>& all, double target) {
+  std::string text;
+  for (const Compared& of : all)
+    for (const IntegratorTrial& trial : of.comparison.trials) {
+      if (!is_beyond_by_its_bound(scene, trial, target)) continue;
+      const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
+      text += core::format(
+          "%s misses --target %.3g %% of %s by its error bound, %.2g %% beside a noise of %.2g %%: more samples do not "
+          "lower that, it is of the solution that they start from\n",
+          trial.integrator.c_str(), 100 * target, of.kind.name.c_str(), 100 * errors.bound, 100 * errors.noise);
+    }
+  return text;
+}
+
+void add_samples(const montecarlo::SampleReport& report, const std::vector<std::string>& names,
+                 results::Record& record) {
+  record.add("samples_not_finite", report.not_finite).add("by_one_sample", report.heavy.size());
+  if (!report.heavy.empty()) record.add("worst_by_one_sample", report.heavy_text(names));
+}
+
+std::string refusals(const std::vector<Compared>& all) {
+  std::string text;
+  for (const Compared& of : all)
+    for (const IntegratorTrial& trial : of.comparison.trials)
+      if (!trial.refused.empty())
+        text += trial.integrator + " does not answer " + of.kind.name + ": " + trial.refused + "\n";
+  return text;
+}
+
+/// Mean irradiances of fluxes; others as they are.
+Estimate told(const measure::Measurement& asked, const Estimate& found) {
+  return std::holds_alternative<measure::Flux>(asked) ? scaled(found, 1 / montecarlo::scale_of(asked)) : found;
+}
+
+const char* unit_of(const scene::Scene& scene, const measure::Measurement& asked) {
+  return std::holds_alternative<measure::PixelRadiance>(asked) ? scene.radiance_unit() : scene.irradiance_unit();
+}
+
+/// Who found it, what it was held against there (nothing: it was asked for by itself), and of which paths.
+struct Finder {
+  std::string integrator, against;
+  const measure::PathClasses& paths;
+};
+
+void add_found(const scene::Scene& scene, const ComparedKind& kind, const Finder& finder,
+               std::span<const Estimate> found, results::Csv& csv) {
+  const int channels = scene.channel_count();
+  for (std::size_t m = 0; m < found.size(); ++m) {
+    const Estimate e = told(kind.asked[m], found[m]);
+    csv.text(kind.name).text(kind.names[m]).text(unit_of(scene, kind.asked[m]));
+    csv.text(finder.integrator).text(finder.against).text(finder.paths.expression());
+    csv.integer(static_cast<long long>(e.samples)).number(scene.weigh(e.value));
+    csv.number(montecarlo::weighed_standard_error(scene, e)).number(scene.weigh(e.error_bound));
+    csv.numbers(e.value, channels).numbers(e.standard_error, channels).numbers(e.error_bound, channels).end_line();
+  }
+}
+
+results::Record record_of(const scene::Scene& scene, const ComparedKind& kind, const IntegratorTrial& trial,
+                          double target) {
+  results::Record record;
+  record.add("integrator", trial.integrator).add("paths", trial.paths.expression()).add("missed", trial.missed);
+  if (!trial.refused.empty()) return record.add("refused", trial.refused);
+  const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
+  record.add("processor_seconds", trial.processor_seconds)
+      .add("efficiency", trial.efficiency(scene))
+      .add("relative_noise", errors.noise)
+      .add("relative_bound", errors.bound)
+      .add("misses_target_by_bound", is_beyond_by_its_bound(scene, trial, target));
+  add_samples(trial.report, kind.names, record);
+  return record;
+}
+
+results::Record record_of(const Compared& of, std::size_t p) {
+  const Agreement& a = of.agreements[p];
+  const MeanAgreement& mean = of.means[p];
+  const IntegratorPair& pair = of.comparison.pairs[p];
+  results::Record record;
+  record.add("pair", pair_name(of, pair))
+      .add("paths", pair.common.expression())
+      .add("comparisons", a.comparisons)
+      .add("mean_z", mean.judged ? mean.mean : a.mean_z)
+      .add("mean_z_judged", mean.judged);
+  if (mean.judged) record.add("mean_z_allowed", mean.allowed);
+  add_samples(pair.report, of.kind.names, record);
+  return record.add("largest_z", a.largest_z).add("beyond", a.beyond).add("worst", of.kind.names[a.worst]);
+}
+
+}  // namespace
+
+bool all_agree(const std::vector<Compared>& all) {
+  return std::all_of(all.begin(), all.end(), [](const Compared& of) {
+    const auto agrees = [](const auto& a) { return a.agrees(); };
+    return std::ranges::all_of(of.agreements, agrees) && std::ranges::all_of(of.means, agrees);
+  });
+}
+
+std::string comparison_text(const scene::Scene& scene, const std::vector<Compared>& all, double target, double z_max) {
+  return efficiency_table(scene, all) + bound_texts(scene, all, target) + "\n" + agreement_table(all, z_max) +
+         refusals(all) + sample_texts(all) + verdict(all) + "\n";
+}
+
+std::string comparison_csv(const scene::Scene& scene, const std::vector<Compared>& all) {
+  results::Csv csv;
+  for (const char* heading :
+       {"kind", "name", "unit", "integrator", "against", "paths", "samples", "value", "standard_error", "error_bound"})
+    csv.text(heading);
+  for (const char* heading : {"value", "standard_error", "error_bound"}) csv.headings(heading, scene.channel_count());
+  csv.end_line();
+  for (const Compared& of : all) {
+    const std::vector<IntegratorTrial>& trials = of.comparison.trials;
+    for (const IntegratorTrial& trial : trials)
+      add_found(scene, of.kind, {trial.integrator, "", trial.paths}, trial.found, csv);
+    for (const IntegratorPair& pair : of.comparison.pairs) {
+      const std::string &a = trials[pair.a].integrator, &b = trials[pair.b].integrator;
+      add_found(scene, of.kind, {a, b, pair.common}, pair.of_a, csv);
+      add_found(scene, of.kind, {b, a, pair.common}, pair.of_b, csv);
+    }
+  }
+  return csv.str();
+}
+
+results::Record comparison_record(const scene::Scene& scene, const std::vector<Compared>& all,
+                                  const CompareOptions& options, double z_max, bool stopped,
+                                  const std::vector<std::string>& pictures) {
+  results::Record::List kinds;
+  for (const Compared& of : all) {
+    results::Record::List trials, pairs;
+    for (const IntegratorTrial& trial : of.comparison.trials)
+      trials.push_back(record_of(scene, of.kind, trial, options.target));
+    for (std::size_t p = 0; p < of.agreements.size(); ++p) pairs.push_back(record_of(of, p));
+    kinds.push_back(results::Record()
+                        .add("measured", of.kind.name)
+                        .add("measurements", of.kind.asked.size())
+                        .add("integrators", std::move(trials))
+                        .add("pairs", std::move(pairs)));
+  }
+  results::Record record;
+  record.add("scene", options.scene.string()).add("target", options.target).add("paths", options.paths);
+  record.add("pictures", pictures);
+  return record.add("agree", all_agree(all)).add("z_max", z_max).add("stopped", stopped).add("kinds", std::move(kinds));
+}
+
+}  // namespace interflect::apps
