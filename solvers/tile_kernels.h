@@ -47,11 +47,13 @@ struct Lanes {
   each<parts>([&](auto i) { std::memcpy(p + i * vector_lanes, &v.part[i], sizeof(Vector)); });
 }
 
-/// How many rows of C columns fit in registers.
+/// How many rows of C columns fit in registers.  Of two tiles one at a time where columns are many: what waits for the
+/// second-level cache then waits beside others.
 template <int C, TileWork work>
 constexpr int rows_in_registers() {
 #ifdef __AVX512F__
-  return C <= (work == TileWork::two_tiles ? 2 : 3) ? 4 : 2;
+  if (work == TileWork::two_tiles && C >= 3) return 1;
+  return C <= 3 ? 4 : 2;
 #else
   return C == 1 ? 4 : C == 2 ? 2 : 1;
 #endif
