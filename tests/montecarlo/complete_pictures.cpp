@@ -7,20 +7,9 @@
 namespace interflect::montecarlo {
 namespace {
 
-/// A floor below half a sky, seen from above.
-scene::Scene floor_below_a_sky() {
-  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
-  scene::SceneBuilder builder({"grey"});
-  builder.add_polygon("floor", test::parallelogram(-x - y, 2 * x, 2 * y),
-                      builder.add_material(test::diffuse("f", .5, 0)));
-  builder.scene().lights.sky = scene::Sky{x, test::grey(2), Spectrum::zero()};
-  builder.scene().cameras.push_back({"c", z, Vec3::Zero(), y, scene::Projection(scene::Orthographic{1}), 16, 16});
-  return builder.finish();
-}
-
 /// Stopped when its state is kept for the nth time.
 Rendering stopped_at(int nth, const RenderSettings& settings) {
-  const scene::Scene scene = floor_below_a_sky();
+  const scene::Scene scene = test::floor_below_a_sky();
   std::stop_source source;
   core::LocalRun run(1, 1);
   run.get().stop = source.get_token();

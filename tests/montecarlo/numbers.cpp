@@ -43,13 +43,7 @@ TEST(Numbers, differ_from_measurement_to_measurement) {
 
 // A floor's pixels, below half a sky, are rho / pi times pi / 2 times its radiance: 1/2 each.
 TEST(Numbers, differ_from_pixel_to_pixel) {
-  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
-  scene::SceneBuilder builder({"grey"});
-  builder.add_polygon("floor", test::parallelogram(-x - y, 2 * x, 2 * y),
-                      builder.add_material(test::diffuse("f", .5, 0)));
-  builder.scene().lights.sky = scene::Sky{x, test::grey(2), Spectrum::zero()};
-  builder.scene().cameras.push_back({"c", z, Vec3::Zero(), y, scene::Projection(scene::Orthographic{1}), 16, 16});
-  const scene::Scene scene = builder.finish();
+  const scene::Scene scene = test::floor_below_a_sky();
   for (const char* integrator : {"path", "bidirectional", "distributed"}) {
     RenderSettings settings;
     settings.integrator = integrator;

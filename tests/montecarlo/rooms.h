@@ -161,4 +161,14 @@ inline void expect_same(const measure::Method& method, const measure::Method& ot
     }
 }
 
+/// A floor below half a sky, seen from above: rho / pi times pi / 2 times its radiance, 1/2 in each of 16 x 16 pixels.
+inline scene::Scene floor_below_a_sky() {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  scene::SceneBuilder builder({"grey"});
+  builder.add_polygon("floor", parallelogram(-x - y, 2 * x, 2 * y), builder.add_material(diffuse("f", .5, 0)));
+  builder.scene().lights.sky = scene::Sky{x, grey(2), Spectrum::zero()};
+  builder.scene().cameras.push_back({"c", z, Vec3::Zero(), y, scene::Projection(scene::Orthographic{1}), 16, 16});
+  return builder.finish();
+}
+
 }  // namespace interflect::test
