@@ -102,6 +102,7 @@ class PathEstimator {
     raycast::Segment segment;
     std::uint32_t of;
   };
+  template <class Company>
   class Wave;
   bool ends_at(const Carried& path, measure::PathLetter light) const {
     return all_paths_ || measure::PathClasses::complete(paths_.after(path.letters, light));

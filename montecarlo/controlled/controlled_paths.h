@@ -50,7 +50,8 @@ class ControlledPaths {
   Spectrum largest_score() const { return paths_.largest_score() / share_that_goes_on; }
 
  private:
-  class Wave;
+  class Control;
+  using Wave = PathEstimator::Wave<Control>;
   /// Less of it leaves more to the solution, more of it costs more rays than it is worth (docs/controlled.md).
   static constexpr double share_that_goes_on = .7;
 
