@@ -20,10 +20,12 @@ Sweeps::Sweeps(const System& system, double relaxation, const ColumnMatrix& star
 }
 
 ColumnMatrix Sweeps::residual() const {
-  const ConstVector G(system_.K.gram().data(), n_);
-  const ColumnMatrix of_others =
-      (system_.R.reflectance().array() * missing_.leftCols(n_).transpose().array()).colwise() / G.array();
-  return of_others + own_.transpose();
+  const std::span<const double> G = system_.K.gram();
+  ColumnMatrix r(n_, columns());
+  for (Index a = 0; a < n_; ++a)
+    for (Index c = 0; c < columns(); ++c)
+      r(a, c) = system_.R.reflectance()(a, c) / G[static_cast<std::size_t>(a)] * missing_(c, a) + own_(c, a);
+  return r;
 }
 
 void Sweeps::sweep(const Rows& rows, bool ascending) {
@@ -32,11 +34,12 @@ void Sweeps::sweep(const Rows& rows, bool ascending) {
 }
 
 void Sweeps::update(const Rows& rows, Index i) {
-  const Index a = rows.first + i, after = rows.diagonal.m - i - 1;
-  const double* K = rows.diagonal.entries + i * rows.diagonal.stride;
+  const Index a = rows.first + i, after = rows.diagonal.n - i - 1, of_part = i - rows.begin;
+  const double* K = rows.diagonal.entries + of_part * rows.diagonal.stride;
   for (Index c = 0; c < columns(); ++c) {
     double* x = x_.row(c).data() + rows.first;
-    const double sum = rows.received.values[c * rows.received.stride + i] + ConstVector(K, i).dot(ConstVector(x, i)) +
+    const double sum = rows.received.values[c * rows.received.stride + of_part] +
+                       ConstVector(K, i).dot(ConstVector(x, i)) +
                        ConstVector(K + i + 1, after).dot(ConstVector(x + i + 1, after));
     const double reflected = system_.R.reflectance()(a, c) / system_.K.gram()[static_cast<std::size_t>(a)];
     const double of_itself = 1 - reflected * K[i];
@@ -50,8 +53,8 @@ void Sweeps::update(const Rows& rows, Index i) {
 void Sweeps::spread_within(const Rows& rows, bool ascending) {
   for (Index c = 0; c < columns(); ++c)
     for (Index i = rows.begin; i < rows.end; ++i) {
-      const Index begin = ascending ? 0 : i + 1, end = ascending ? i : rows.diagonal.m;
-      const double* K = rows.diagonal.entries + i * rows.diagonal.stride;
+      const Index begin = ascending ? 0 : i + 1, end = ascending ? i : rows.diagonal.n;
+      const double* K = rows.diagonal.entries + (i - rows.begin) * rows.diagonal.stride;
       double* missing = missing_.row(c).data() + rows.first;
       for (Index j = begin; j < end; ++j) missing[j] += K[j] * change_(c, i);
     }

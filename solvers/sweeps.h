@@ -31,8 +31,8 @@ class Sweeps {
   /// Unknowns that follow each other, and what is known of all of them: a block, or a part of one.
   struct Rows {
     Index first, begin, end;   ///< of the block; of the part, counted from there
-    Block diagonal;            ///< the block's part of K, square
-    ConstColumnSpan received;  ///< sum of K b over the unknowns outside the block, by row of it
+    Block diagonal;            ///< K of the part's rows and the block's unknowns
+    ConstColumnSpan received;  ///< sum of K b over the unknowns outside the block, by row of the part
   };
   /// New values of rows of a block, one after the other, each with the newest of its block; and what is missing from
   /// those of it that came before them.

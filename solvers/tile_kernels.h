@@ -68,7 +68,8 @@ template <int C, int R, TileWork work>
   const Index at = t * part_entries + row * tile_size;
   const double* in = of.receiving + (receives ? at : 0);
   const double* out = work == TileWork::one_tile ? in : of.sending + (sends ? at : 0);
-  const double* next = (receives ? in : out) + part_entries;
+  const bool goes_on = of.after == nullptr || t + 1 < of.tiles;
+  const double* next = goes_on ? (receives ? in : out) + part_entries : of.after + row * tile_size;
   const double* x_columns = of.x + (receives ? t * of.step : 0);
   double* y_columns = of.y + (sends ? t * of.step : 0);
   double* lanes = of.lanes + (receives ? row * tile_lanes : 0);

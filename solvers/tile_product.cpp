@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 
 #include "core/wide_vectors.h"
 #include "solvers/tile_kernels.h"
@@ -45,6 +46,27 @@ TileRows piece_of(const TileRows& all, Index tile, Index first, Index count) {
   return of;
 }
 
+using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
+static_assert(tile_lanes == 8);
+
+/// a0 + a1, a2 + a3, a4 + a5, a6 + a7, b0 + b1, ..
+void pair_sums(const Eight& a, const Eight& b, Eight& sums) {
+  sums = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14) +
+         __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+}
+
+/// y += sums over the lanes of each of eight rows: pairs of lanes, then of those, then of those.
+void add_eight_sums(double* lanes, double* y) {
+  Eight of[8], sum;
+  std::memcpy(of, lanes, sizeof(of));
+  std::fill_n(lanes, 64, 0.0);
+  for (int count = 8; count > 1; count /= 2)
+    for (int i = 0; i < count; i += 2) pair_sums(of[i], of[i + 1], of[i / 2]);
+  std::memcpy(&sum, y, sizeof(sum));
+  sum += of[0];
+  std::memcpy(y, &sum, sizeof(sum));
+}
+
 }  // namespace
 
 void add_products(const TileRows& of) {
@@ -61,13 +83,10 @@ void add_products(const TileRows& of) {
 }
 
 void add_lanes(Index rows, Index columns, double* lanes, double* y, Index stride) {
+  assert(rows % tile_lanes == 0);
   for (Index c = 0; c < columns; ++c)
-    for (Index i = 0; i < rows; ++i) {
-      double* of_row = lanes + (c * tile_size + i) * tile_lanes;
-      double* sum = y + c * stride + i;
-      *sum += ((of_row[0] + of_row[1]) + (of_row[2] + of_row[3])) + ((of_row[4] + of_row[5]) + (of_row[6] + of_row[7]));
-      std::fill_n(of_row, tile_lanes, 0.0);
-    }
+    for (Index i = 0; i < rows; i += tile_lanes)
+      add_eight_sums(lanes + (c * tile_size + i) * tile_lanes, y + c * stride + i);
 }
 
 }  // namespace interflect::solvers

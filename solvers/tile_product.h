@@ -21,13 +21,14 @@ struct TileRows {
   const double* sending = nullptr;    ///< rows of a tile, the same or another's, or null:  y += sending^T z
   const double* z = nullptr;          ///< at these rows
   double* y = nullptr;                ///< at the first tile's columns
+  const double* after = nullptr;      ///< what is read after the last tile, if it does not lie behind it
 };
 
-/// Both products, reading what is received from, and sent by, once.  What lies a part behind `receiving` (or `sending`,
-/// where there is nothing else) is taken for the next one and fetched.  Same bits for any division into rows and tiles.
+/// Both products, reading what is received from, and sent by, once.  What is read next, a part behind `receiving` (or
+/// `sending`, where there is nothing else) or `after`, is fetched.  Same bits for any division into rows and tiles.
 void add_products(const TileRows& of);
 
-/// y += the sums of the lanes of `rows` rows, which become 0; y's columns lie `stride` apart.
+/// y += the sums of the lanes of `rows` rows, a multiple of tile_lanes, which become 0; y's columns lie `stride` apart.
 void add_lanes(Index rows, Index columns, double* lanes, double* y, Index stride);
 
 }  // namespace interflect::solvers

@@ -2,61 +2,48 @@
 
 #include <algorithm>
 #include <bit>
-
-#include "solvers/tile_product.h"
+#include <limits>
 
 namespace interflect::solvers {
 namespace {
 
-constexpr Index tiles_a_task = 16;
-constexpr Index rows_a_thread = part_rows;  // 10 000 unknowns: .6 MB on average
+constexpr Index tiles_a_piece =
+    12;  // on average, at the last row, at least: to add up the lanes takes half a tile's time
+constexpr Index most_pieces = 64;
+constexpr Index same_pieces = 4;  // rows of tiles: where pieces change, threads wait for each other
+constexpr Index strips_a_row = tile_size / part_rows;
 
-Index padded(Index n) { return (n + tile_size - 1) / tile_size * tile_size; }
-
-Index height_for(unsigned threads) { return std::min(rows_a_thread * Index{std::bit_ceil(threads)}, tile_size); }
+Index padded(Index n, Index to) { return (n + to - 1) / to * to; }
 
 }  // namespace
 
 TileSweeps::TileSweeps(const System& system, const TileAccess& tiles, double relaxation, const ColumnMatrix& start,
                        const Run& run)
-    : Sweeps(system, relaxation, start, padded(start.rows()), tile_size),
+    : Sweeps(system, relaxation, start, padded(start.rows(), tile_size), tile_size),
       tiles_(tiles),
-      run_(run),
+      pieces_(static_cast<Index>(
+          std::bit_floor(static_cast<std::size_t>(std::clamp(tile_rows() / tiles_a_piece, Index{1}, most_pieces))))),
+      team_(std::min(run.threads.count(), static_cast<unsigned>(pieces_))),
       room_{CacheLines(x_.size()), CacheLines(x_.size())},
       up_(room_[0].data(), x_.rows(), x_.cols()),
       sent_(room_[1].data(), x_.rows(), x_.cols()),
-      diagonal_(tile_entries),
-      lanes_((tile_rows() + tiles_a_task - 1) / tiles_a_task * columns() * tile_size * tile_lanes),
-      received_(columns(), tile_size) {}
+      lanes_(team_.size() * columns() * tile_size * tile_lanes),
+      sums_(2 * pieces_ * columns() * part_rows),
+      received_(columns(), part_rows) {}
 
 void TileSweeps::forward() {
-  height_ = height_for(run_.threads.count());
   if (!knows_up_) send_all();
   missing_.setZero();
   sent_.setZero();
-  std::optional<Strip> before;
-  for (Index s = 0; s < strips(); ++s) {
-    const Strip now = strip(s);
-    send_and_receive(before, now);
-    sweep_strip(now, true, up_);
-    before = now;
-  }
-  send_and_receive(before, std::nullopt);
+  sweep_all({true, up_});
   missing_ += sent_ - up_;
   up_ = sent_;
   knows_up_ = true;
 }
 
 void TileSweeps::back() {
-  height_ = tile_size;  // sums over the rows of a tile have one order, whatever the strips
   sent_.setZero();
-  std::optional<Strip> after;
-  for (Index s = strips() - 1; s >= 0; --s) {
-    const Strip now = strip(s);
-    send_and_receive(after, now);
-    sweep_strip(now, false, sent_);
-    after = now;
-  }
+  sweep_all({false, sent_});
   up_ = sent_;
   knows_up_ = true;
 }
@@ -64,68 +51,134 @@ void TileSweeps::back() {
 /// up_ of the x that there is.
 void TileSweeps::send_all() {
   sent_.setZero();
-  for (Index s = 0; s < strips(); ++s) send_and_receive(strip(s), std::nullopt);
+  team_.work([&](unsigned member) {
+    for (Index s = 0; s < strips(); ++s) work_on(pass_of(strip(s, true), strips(), {true, up_}), member);
+  });
   up_ = sent_;
 }
 
-/// What a strip sends to all tiles before it, and another receives from all before it, into received_: one pass over
-/// both, shared by the threads.
-void TileSweeps::send_and_receive(const std::optional<Strip>& sender, const std::optional<Strip>& receiver) {
-  const Index tiles = std::max(sender ? sender->I : 0, receiver ? receiver->I : 0);
-  const Index part = columns() * tile_size * tile_lanes;
-  run_.threads.for_blocks(tiles, tiles_a_task, [&](Index begin, Index end) {
-    pass_tiles(sender, receiver, begin, end, lanes_.data() + begin / tiles_a_task * part);
-  });
-  if (!receiver) return;
-  received_.setZero();
-  for (Index task = 0; task * tiles_a_task < receiver->I; ++task)
-    add_lanes(height_, columns(), lanes_.data() + task * part, received_.data() + receiver->row, tile_size);
+/// The s-th strip of a sweep, if there is one.
+TileSweeps::OneStrip TileSweeps::strip(Index s, bool ascending) const {
+  if (s < 0 || s >= strips()) return std::nullopt;
+  const Index at = ascending ? s : strips() - 1 - s;
+  return Strip{at / strips_a_row, at % strips_a_row * part_rows};
 }
 
-void TileSweeps::pass_tiles(const std::optional<Strip>& sender, const std::optional<Strip>& receiver, Index begin,
-                            Index end, double* lanes) {
-  const Index sent = sender ? std::clamp(sender->I, begin, end) : begin;
-  const Index received = receiver ? std::clamp(receiver->I, begin, end) : begin;
-  for (Index row = 0; row < height_; row += part_rows) {
-    const auto pass = [&](Index first, Index last, bool sends, bool receives) {
-      if (first >= last) return;
-      TileRows of{
-          .rows = part_rows, .tiles = last - first, .columns = columns(), .stride = x_.cols(), .step = tile_size};
-      if (receives) {
-        of.receiving = tiles_.part(receiver->I, receiver->row + row, first);
-        of.x = x_.data() + first * tile_size;
-        of.lanes = lanes + row * tile_lanes;
+/// New values of strip s, by member 0, and beside it or after it, by all, a pass: what strip s - ahead sends, and strip
+/// s + 1 receives.
+void TileSweeps::sweep_all(const Way& way) {
+  const Index all = strips(), ahead = team_.size() > 1 ? 1 : 0;
+  core::StepCount renewed;                            // strips
+  std::vector<core::StepCount> passed(team_.size());  // passes, by member
+  const auto wait_for_all = [&](Index passes) {
+    for (const core::StepCount& of_member : passed) of_member.wait_for(passes);
+  };
+  team_.work([&](unsigned member) {
+    work_on(pass_of({}, 0, way), member);
+    passed[member].raise_to(1);
+    for (Index s = 0; s < all + ahead; ++s) {
+      if (member == 0 && s < all) {
+        wait_for_all(s + 1);
+        renew(*strip(s, way.ascending), strip(s - 1, way.ascending), way);
+        renewed.raise_to(s + 1);
       }
-      if (sends) {
-        of.sending = tiles_.part(sender->I, sender->row + row, first);
-        of.z = x_.data() + sender->I * tile_size + sender->row + row;
-        of.y = sent_.data() + first * tile_size;
-      }
-      add_products(of);
-    };
-    const Index both = std::min(sent, received);
-    pass(begin, both, true, true);
-    pass(both, sent, true, false);
-    pass(both, received, false, true);
+      renewed.wait_for(std::min(all, s + 1 - ahead));
+      if (pieces(strip(s, way.ascending)).tiles != pieces(strip(s + 1, way.ascending)).tiles)
+        wait_for_all(s + 1);  // columns get other members
+      work_on(pass_of(strip(s - ahead, way.ascending), s + 1, way), member);
+      passed[member].raise_to(s + 2);
+    }
+  });
+}
+
+/// How sums over a strip's columns are cut; where nothing is received, how what is sent is.
+TileSweeps::Pieces TileSweeps::pieces(const OneStrip& receiver) const {
+  return {padded(receiver ? receiver->I : tile_rows(), same_pieces), pieces_};
+}
+
+/// One pass over what the next strip receives and another sends.
+TileSweeps::Pass TileSweeps::pass_of(const OneStrip& sender, Index s, const Way& way) const {
+  const OneStrip receiver = strip(s, way.ascending);
+  return {.sender = sender,
+          .receiver = receiver,
+          .next = strip(s + 1, way.ascending),
+          .sends = sender ? sender->I - (!way.ascending && has_near(*sender) ? 1 : 0) : 0,
+          .receives = receiver ? receiver->I - (way.ascending && has_near(*receiver) ? 1 : 0) : 0};
+}
+
+/// A member's columns of a pass.  The last ones are member 0's, which has fewer of them, as it makes new values too:
+/// behind them lies the tile on the diagonal, which it needs.
+void TileSweeps::work_on(const Pass& pass, unsigned member) {
+  const Index place = team_.size() - 1 - member, members = team_.size();
+  const Index first = pieces_ * place / members, end = pieces_ * (place + 1) / members;
+  const Pieces cut = pieces(pass.receiver);
+  double* lanes = lanes_.data() + member * columns() * tile_size * tile_lanes;
+  for (Index piece = first; piece < end; ++piece) {
+    const Index from = cut.begin(piece);
+    const Index to = piece + 1 < pieces_ ? cut.begin(piece + 1) : std::max(pass.receives, pass.sends);
+    const Index received = std::clamp(pass.receives, from, std::max(from, to));
+    const Index sent = std::clamp(pass.sends, from, std::max(from, to)), both = std::min(received, sent);
+    const double* after = nullptr;
+    if (piece + 1 == end && member != 0 && pass.next)
+      after = tiles_.part(pass.next->I, pass.next->row, std::min(pass.next->I, pieces(pass.next).begin(first)));
+    add({from, both, pass.receiver, pass.sender, after}, lanes);
+    add({both, received, pass.receiver, {}, after}, lanes);
+    add({both, sent, {}, pass.sender, nullptr}, lanes);
+    if (pass.receiver) put_sums(*pass.receiver, piece, lanes);
   }
 }
 
-void TileSweeps::fetch_diagonal(Index I) {
-  if (diagonal_of_ == I) return;
-  for (Index row = 0; row < tile_size; row += part_rows)
-    std::copy_n(tiles_.part(I, row, I), part_entries, diagonal_.data() + row * tile_size);
-  diagonal_of_ = I;
+/// The products of a pass over some tiles.
+void TileSweeps::add(const Products& products, double* lanes) {
+  const auto [begin, end, receiver, sender, after] = products;
+  if (begin >= end) return;
+  TileRows of{.rows = part_rows, .tiles = end - begin, .columns = columns(), .stride = x_.cols(), .step = tile_size};
+  if (receiver) {
+    of.receiving = tiles_.part(receiver->I, receiver->row, begin);
+    of.x = x_.data() + begin * tile_size;
+    of.lanes = lanes;
+    of.after = after;
+  }
+  if (sender) {
+    of.sending = tiles_.part(sender->I, sender->row, begin);
+    of.z = x_.data() + sender->I * tile_size + sender->row;
+    of.y = sent_.data() + begin * tile_size;
+  }
+  add_products(of);
 }
 
-/// New values of a strip, which has received what comes from the tiles before it.
-void TileSweeps::sweep_strip(const Strip& strip, bool ascending, ConstColumns from_after) {
+/// By piece of a strip and of the one after it: what that receives is summed while this one has its new values made.
+double* TileSweeps::sums(const Strip& strip, Index piece) {
+  return sums_.data() + (strip.row / part_rows % 2 * pieces_ + piece) * columns() * part_rows;
+}
+
+void TileSweeps::put_sums(const Strip& strip, Index piece, double* lanes) {
+  double* sum = sums(strip, piece);
+  std::fill_n(sum, columns() * part_rows, 0.0);
+  add_lanes(part_rows, columns(), lanes, sum, part_rows);
+}
+
+/// New values of a strip, for which all but what is near has been received, and sent.
+void TileSweeps::renew(const Strip& strip, const OneStrip& before, const Way& way) {
+  received_.setZero();
+  for (Index piece = 0; piece < pieces_; ++piece)
+    received_ += Eigen::Map<const ColumnMatrix>(sums(strip, piece), columns(), part_rows);
+  if (way.ascending && has_near(strip)) {
+    add({strip.I - 1, strip.I, strip, {}, nullptr}, lanes_.data());
+    add_lanes(part_rows, columns(), lanes_.data(), received_.data(), part_rows);
+  }
+  if (!way.ascending && before && has_near(*before)) add({strip.I, strip.I + 1, {}, before, nullptr}, lanes_.data());
+
   const Index first = strip.I * tile_size, count = std::min(tile_size, n() - first);
-  const Index end = std::min(strip.row + height_, count);
-  fetch_diagonal(strip.I);
+  const Index end = std::min(strip.row + part_rows, count);
   for (Index c = 0; c < columns(); ++c)
-    for (Index i = strip.row; i < end; ++i) received_(c, i) += from_after(c, first + i);
-  sweep({first, strip.row, end, {diagonal_.data(), count, count, tile_size}, {received_.data(), columns(), tile_size}},
-        ascending);
+    for (Index i = strip.row; i < end; ++i) received_(c, i - strip.row) += way.from_after(c, first + i);
+  sweep({first,
+         strip.row,
+         end,
+         {tiles_.part(strip.I, strip.row, strip.I), part_rows, count, tile_size},
+         {received_.data(), columns(), part_rows}},
+        way.ascending);
 }
 
 }  // namespace interflect::solvers

@@ -2,8 +2,10 @@
 
 #include <optional>
 
+#include "core/team.h"
 #include "solvers/sweeps.h"
 #include "solvers/tile_access.h"
+#include "solvers/tile_product.h"
 
 namespace interflect::solvers {
 
@@ -17,8 +19,13 @@ namespace interflect::solvers {
 ///   on the way back:   from before  sum_J<I K_IJ b_J (old),  from after  up_I = sum_J>I K_JI^T b_J (of this one)
 ///
 /// What is missing from row a after a sweep there (`Sweeps::residual`) is then up_a less what it was before.
-/// A few rows at a time, so that they stay in the second-level cache of the threads that share them: one pass sends
-/// what the last few have and receives what the next few get.  Sums over a row do not depend on how many these are.
+///
+/// A strip, a few rows, at a time, so that it stays in the second-level cache: one pass sends what one strip has and
+/// receives what another gets.  Threads have columns of their own, the same for many strips.  One of them makes the new
+/// values, a strip ahead of the passes, so that none waits for another: the passes that go on beside it neither need nor
+/// give what passes between a strip and the one after it.  Within a row of tiles its tile on the diagonal tells that; of
+/// two strips in different rows of tiles the thread that makes the new values sees to the tile between them, the
+/// `near` one.
 class TileSweeps final : public Sweeps {
  public:
   TileSweeps(const System& system, const TileAccess& tiles, double relaxation, const ColumnMatrix& start,
@@ -27,31 +34,56 @@ class TileSweeps final : public Sweeps {
   void back() override;
 
  private:
-  /// A few rows of a row of tiles: one part, or several.
+  /// A part of a row of tiles.
   struct Strip {
     Index I, row;  ///< tiles; first row in them
   };
-  Index strips() const { return tile_rows() * (tile_size / height_); }
-  Strip strip(Index s) const { return {s / (tile_size / height_), s % (tile_size / height_) * height_}; }
+  using OneStrip = std::optional<Strip>;
+  /// What a sweep is: the order of the strips, and what they receive from unknowns after them.
+  struct Way {
+    bool ascending;
+    ConstColumns from_after;
+  };
+  struct Pass {
+    OneStrip sender, receiver, next;
+    Index sends, receives;  ///< tiles, from the first column on
+  };
+  struct Products {
+    Index begin, end;  ///< tiles
+    OneStrip receiver, sender;
+    const double* after;  ///< what is received next, if it does not lie behind
+  };
+  /// Sums over a row are cut, so that members have some pieces each, in a way that does not depend on their number.
+  struct Pieces {
+    Index tiles, pieces;
+    Index begin(Index piece) const { return tiles * piece / pieces; }
+  };
+
   Index tile_rows() const { return x_.cols() / tile_size; }
+  Index strips() const { return tile_rows() * (tile_size / part_rows); }
+  OneStrip strip(Index s, bool ascending) const;
+  bool has_near(const Strip& strip) const { return strip.row == 0 && strip.I > 0; }
+  Pieces pieces(const OneStrip& receiver) const;
+  Pass pass_of(const OneStrip& sender, Index s, const Way& way) const;
+  double* sums(const Strip& strip, Index piece);
+
   void send_all();
-  void fetch_diagonal(Index I);
-  void sweep_strip(const Strip& strip, bool ascending, ConstColumns from_after);
-  void send_and_receive(const std::optional<Strip>& sender, const std::optional<Strip>& receiver);
-  void pass_tiles(const std::optional<Strip>& sender, const std::optional<Strip>& receiver, Index begin, Index end,
-                  double* lanes);
+  void sweep_all(const Way& way);
+  void renew(const Strip& strip, const OneStrip& before, const Way& way);
+  void work_on(const Pass& pass, unsigned member);
+  void add(const Products& products, double* lanes);
+  void put_sums(const Strip& strip, Index piece, double* lanes);
 
   const TileAccess& tiles_;
-  const Run& run_;
-  Index height_ = tile_size;  ///< rows of a strip, a multiple of part_rows
+  Index pieces_;
+  core::Team team_;
   CacheLines room_[2];
   Eigen::Map<ColumnMatrix> up_,
-      sent_;                ///< columns x stride: received from unknowns after, in other rows of tiles; so far
-  bool knows_up_ = false;   ///< of the x that there is
-  CacheLines diagonal_;     ///< the tile of the strips that are swept, row after row
-  Index diagonal_of_ = -1;  ///< row of tiles
-  CacheLines lanes_;        ///< of what a strip receives, by task: columns x tile_size x tile_lanes each
-  ColumnMatrix received_;   ///< columns x tile_size
+      sent_;               ///< columns x stride: received from unknowns after, in other rows of tiles; so far
+  bool knows_up_ = false;  ///< of the x that there is
+  CacheLines lanes_;       ///< of what a strip receives, by member: columns x tile_size x tile_lanes each
+  CacheLines sums_;        ///< of it, by piece, of every other strip: columns x part_rows each
+  ColumnMatrix received_;  ///< columns x part_rows
 };
 
 }  // namespace interflect::solvers

@@ -83,10 +83,10 @@ TEST(Sweeps, from_tiles_say_the_residual_of_the_very_result) {
     }
 }
 
-// More threads share higher strips, and tasks: no sum is added in another order.  A solve that is gone on with has to
-// send all that it has once more.
+// Threads share pieces of sums, and make new values beside the passes: no sum is added in another order.  A solve that is
+// gone on with has to send all that it has once more.
 TEST(Sweeps, from_tiles_have_the_same_bits_for_any_number_of_threads_and_when_they_are_gone_on_with) {
-  const Index n = 64 * 20 + 7;  // several tasks
+  const Index n = 64 * 50 + 7;  // four pieces
   core::RandomNumbers random(46, 0, 0);
   Eigen::MatrixXd matrix(n, n);
   for (Index a = 0; a < n; ++a)

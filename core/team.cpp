@@ -1,0 +1,64 @@
+#include "core/team.h"
+
+namespace interflect::core {
+namespace {
+
+constexpr int looks = 512;    // some ten microseconds
+constexpr int yields = 1024;  // some hundred, where there are as many processors as threads
+
+/// Whether it is so soon: looks again and again, and later lets others run in between, as they may be what it waits for.
+template <class Condition>
+bool is_soon(const Condition& condition) {
+  for (int look = 0; look < looks; ++look) {
+    if (condition()) return true;
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+  }
+  for (int yield = 0; yield < yields; ++yield) {
+    if (condition()) return true;
+    std::this_thread::yield();
+  }
+  return false;
+}
+
+}  // namespace
+
+void StepCount::wait_for(Index steps) const {
+  while (!is_soon([&] { return steps_.load(std::memory_order_acquire) >= steps; })) {
+  }
+}
+
+Team::Team(unsigned members) {
+  others_.reserve(members - 1);
+  for (unsigned member = 1; member < members; ++member) others_.emplace_back([this, member] { serve(member); });
+}
+
+Team::~Team() {
+  body_ = nullptr;
+  called_.fetch_add(1, std::memory_order_release);
+  called_.notify_all();
+  for (std::thread& other : others_) other.join();
+}
+
+void Team::work(const std::function<void(unsigned)>& body) {
+  body_ = &body;
+  busy_.store(size() - 1, std::memory_order_relaxed);
+  called_.fetch_add(1, std::memory_order_release);
+  called_.notify_all();
+  [&]() noexcept { body(0); }();
+  if (is_soon([&] { return busy_.load(std::memory_order_acquire) == 0; })) return;
+  for (unsigned busy; (busy = busy_.load(std::memory_order_acquire)) != 0;) busy_.wait(busy, std::memory_order_acquire);
+}
+
+void Team::serve(unsigned member) {
+  for (Index served = 0;; ++served) {
+    if (!is_soon([&] { return called_.load(std::memory_order_acquire) != served; }))
+      called_.wait(served, std::memory_order_acquire);
+    if (body_ == nullptr) return;
+    [&]() noexcept { (*body_)(member); }();
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+  }
+}
+
+}  // namespace interflect::core
