@@ -10,7 +10,7 @@ namespace {
 constexpr Index tiles_a_piece =
     12;  // on average, at the last row, at least: to add up the lanes takes half a tile's time
 constexpr Index most_pieces = 64;
-constexpr Index same_pieces = 4;  // rows of tiles: where pieces change, threads wait for each other
+constexpr Index same_pieces = 8;  // rows of tiles: where pieces change, threads wait for each other
 constexpr Index strips_a_row = tile_size / part_rows;
 
 Index padded(Index n, Index to) { return (n + to - 1) / to * to; }
