@@ -141,15 +141,18 @@ void add_compare(CLI::App& app, Command& chosen) {
   add_folder(*command, options->out);
   command
       ->add_option("--integrators", options->integrators,
-                   "Which ones; default: all but two-pass and controlled, which solve first")
+                   "Which ones; default: all but unidirectional, which finds lights by chance, and two-pass and "
+                   "controlled, which solve first")
       ->delimiter(',')
       ->check(CLI::IsMember(montecarlo::integrator_names()));
   add_target(*command, options->target);
   add_paths(*command, options->paths);
   add_camera(*command, options->camera);
   command
-      ->add_option("--spp", options->samples,
-                   "Samples per pixel of the pictures; of whitted rounded up to a multiple of 16")
+      ->add_option(
+          "--spp", options->samples,
+          "Samples per pixel of the pictures, and of those on which a pair is compared where it finds different "
+          "paths; of whitted rounded up to a multiple of 16")
       ->check(CLI::Range(2, 1 << 20))
       ->capture_default_str();
   command

@@ -96,11 +96,11 @@ double judge(const scene::Scene& scene, std::vector<Compared>& all) {
   return z_max;
 }
 
-/// Of all integrators those that need no solution of another method.
+/// Of all integrators those that need no solution of another method, and do not wait for chance.
 std::vector<std::string> those_by_themselves() {
   std::vector<std::string> names;
   for (const montecarlo::IntegratorEntry& each : montecarlo::known_integrators())
-    if (!each.needs_solution) names.push_back(each.name);
+    if (!each.needs_solution && !each.by_chance) names.push_back(each.name);
   return names;
 }
 
@@ -121,7 +121,7 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
   const FirstPass first_pass(scene, names, measure::PathClasses::of(options.paths), options.intersector, run);
   std::vector<Compared> all = compared(scene, kinds_of(scene, few), names, first_pass, options, run);
   const double z_max = judge(scene, all);
-  std::vector<std::string> pictures;
+  PicturesDrawn pictures;
   const auto record = [&] {
     return comparison_record(scene, all, options, z_max, run.stop.stop_requested(), pictures);
   };
@@ -134,6 +134,7 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
   if (options.pictures && camera) {
     pictures = write_comparison_pictures(scene, *camera, names, first_pass, options, run);
     write_record();  // with them, and with a stop among them
+    if (talk) std::printf("%s", pictures_text(pictures).c_str());
   }
   if (common.json) std::printf("%s\n", results::json_text(record()).c_str());
   if (talk) std::printf("written to %s\n", options.out.string().c_str());

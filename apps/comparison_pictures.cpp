@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <regex>
 
 #include "apps/camera_pictures.h"
 #include "apps/pictures.h"
@@ -13,6 +14,7 @@
 #include "montecarlo/integrators.h"
 #include "montecarlo/render.h"
 #include "results/comparison_panels.h"
+#include "results/difference_layers.h"
 #include "results/image_file.h"
 #include "scene/io/json_document.h"
 #include "scene/io/text_file.h"
@@ -23,15 +25,14 @@ namespace {
 using montecarlo::Rendering;
 
 constexpr double difference_scale = 0.1;  ///< relative difference at full colour
+constexpr const char* not_begun = "stopped before it was drawn";
 
-/// A picture and whose it is.
-struct Drawn {
-  std::string by;
-  Rendering picture;
-};
+/// ", but ASE": what the reader must not take for found.
+std::string but(const PicturePaths& of) { return of.missed.empty() ? "" : ", but " + of.missed; }
 
-std::string compared_file(const std::string& a, const std::string& b) {
-  return core::format("compared_%s_%s.png", a.c_str(), b.c_str());
+/// Without an extension.  A part has another name than the whole.
+std::string file_of(const std::string& integrator, const PicturePaths& of) {
+  return of.missed.empty() ? integrator : integrator + "_but_" + of.missed;
 }
 
 /// The samples asked for, or a few more of those whose samples come in sixteen copies.
@@ -41,40 +42,34 @@ std::uint64_t samples_of(const std::string& integrator, const CompareOptions& op
   return montecarlo::integrator_entry(integrator).by_quadrature ? (samples + copies - 1) / copies * copies : samples;
 }
 
-/// @throws core::InputError   it does not find what is asked for
-/// @throws core::Interrupted  before every pixel had a sample
-Rendering rendered(const scene::Scene& scene, scene::CameraId camera, const std::string& integrator,
-                   const FirstPass& first_pass, const CompareOptions& options, const raycast::RayCaster& rays,
-                   Run& run) {
-  montecarlo::RenderSettings settings;
-  settings.integrator = integrator;
-  settings.samples = samples_of(integrator, options);
-  settings.paths = measure::PathClasses::of(options.paths);
-  settings.solution = first_pass.solution();
-  return montecarlo::render(scene, camera, settings, run, rays);
+/// Whether errors are those of a rule or of a solution, which neighbours have in common, not of samples of their own.
+bool shares_errors(const std::string& integrator) {
+  const montecarlo::IntegratorEntry& entry = montecarlo::integrator_entry(integrator);
+  return entry.by_quadrature || entry.inherits_error;
 }
 
-core::Image beside(const scene::Scene& scene, const Drawn& drawn, const Drawn& first) {
-  core::Image noise = drawn.picture.standard_error;
-  for (std::size_t k = 0; k < noise.data.size(); ++k)
-    noise.data[k] = std::hypot(noise.data[k], first.picture.standard_error.data[k]);
-  const auto panels =
-      results::comparison_panels(scene, drawn.picture.radiance, first.picture.radiance, noise, difference_scale);
+core::Image beside(const scene::Scene& scene, const DifferenceDrawn& told, const Rendering& a, const Rendering& b) {
+  core::Image own(a.radiance.width, a.radiance.height, a.radiance.channels), shared = own;
+  const auto add = [&](const std::string& integrator, const core::Image& error) {
+    core::Image& sum = shares_errors(integrator) ? shared : own;
+    for (std::size_t k = 0; k < sum.data.size(); ++k) sum.data[k] = std::hypot(sum.data[k], error.data[k]);
+  };
+  add(told.a, a.standard_error);
+  add(told.b, b.standard_error);
+  const auto panels = results::comparison_panels(scene, a.radiance, b.radiance, own, difference_scale, &shared);
   return beside_each_other(
       panels,
-      {drawn.by + ", " + core::format_count(drawn.picture.samples) + " samples a pixel", first.by,
-       core::format("(%s - %s) / mean, white within 3 standard errors", drawn.by.c_str(), first.by.c_str())},
+      {told.a + but(told.of) + ", " + core::format_count(a.samples) + " samples a pixel", told.b + but(told.of),
+       core::format("(%s - %s) / mean, white within 3 standard errors", told.a.c_str(), told.b.c_str())},
       difference_scale);
 }
 
-/// All that a comparison can leave, by whichever integrators.
-std::vector<std::string> possible_files() {
-  std::vector<std::string> files;
-  for (const std::string& a : montecarlo::integrator_names()) {
-    for (const char* extension : {".exr", ".png"}) files.push_back(a + extension);
-    for (const std::string& b : montecarlo::integrator_names()) files.push_back(compared_file(a, b));
-  }
-  return files;
+/// Whether it is the name of what a comparison draws, by whichever integrators.
+bool is_drawn_by_comparisons(const std::string& file) {
+  std::string any;
+  for (const std::string& name : montecarlo::integrator_names()) any += (any.empty() ? "(" : "|") + name;
+  any += ")";
+  return std::regex_match(file, std::regex("(" + any + "(_but_[A-Z]+)?|compared_" + any + "_" + any + ")\\.(exr|png)"));
 }
 
 /// What the record in the folder says that its run drew; nothing where there is none that can be read.
@@ -90,77 +85,187 @@ std::vector<std::string> drawn_before(const std::filesystem::path& record) try {
 /// Draws them one by one.
 class Artist {
  public:
-  Artist(const scene::Scene& scene, scene::CameraId camera, const FirstPass& first_pass, const CompareOptions& options,
-         Run& run)
+  Artist(const scene::Scene& scene, scene::CameraId camera, const std::vector<std::string>& names,
+         const FirstPass& first_pass, const CompareOptions& options, Run& run)
       : scene_(scene),
         camera_(camera),
-        first_pass_(first_pass),
+        paths_(scene, camera, measure::PathClasses::of(options.paths)),
         options_(options),
         run_(run),
-        rays_(raycast::make_ray_caster(options.intersector, scene)) {}
-
-  /// @throws core::Interrupted  before there is a picture
-  void draw(const std::string& name) {
-    run_.throw_if_stopped("pictures");
-    Drawn drawn{name, {}};
-    try {
-      drawn.picture = rendered(scene_, camera_, name, first_pass_, options_, *rays_, run_);
-    } catch (const core::InputError& error) {
-      core::log::warning("no picture by " + name + ": " + error.what());
-      return;
-    }
-    if (!drawn.picture.complete)
-      core::log::warning(core::format("stopped: the picture by %s has %llu samples a pixel", name.c_str(),
-                                      static_cast<unsigned long long>(drawn.picture.samples)));
-    results::write_image(file(name + ".exr"), with_errors_and_samples(drawn.picture));
-    results::write_image(file(name + ".png"), results::as_rgb(scene_, drawn.picture.radiance));
-    if (first_)
-      results::write_png(file(compared_file(name, first_->by)), beside(scene_, drawn, *first_));
-    else
-      first_ = std::move(drawn);
+        solution_(first_pass.solution()),
+        rays_(raycast::make_ray_caster(options.intersector, scene)),
+        own_(names.size()) {
+    for (const std::string& name : names) drawn_.pictures.push_back({name, paths_.found_by(name), not_begun});
+    for (std::size_t a = 0; a < names.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) add_pair(a, b);
   }
 
-  const std::vector<std::string>& files() const { return files_; }
+  /// Pictures first, with the differences of those that are of the same paths; then what takes pictures once more.
+  /// @throws core::Interrupted  before all are drawn
+  void draw() {
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      draw_own(k);
+      for (std::size_t p = 0; p < pairs_.size(); ++p)
+        if (pairs_[p].a == k && is_of_own(p)) write_difference(p, *own_[k], *own_[pairs_[p].b]);
+    }
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (is_to_come(p)) draw_on(drawn_.differences[p].of);
+  }
+
+  const PicturesDrawn& drawn() const { return drawn_; }
 
  private:
-  std::filesystem::path file(const std::string& name) {
-    files_.push_back(name);
+  struct Pair {
+    std::size_t a, b;  ///< integrators
+  };
+  using Again = std::vector<std::optional<Rendering>>;  ///< by integrator
+
+  void add_pair(std::size_t a, std::size_t b) {
+    const PictureDrawn &of_a = drawn_.pictures[a], &of_b = drawn_.pictures[b];
+    const PicturePaths common = paths_.found_by_both(of_a.of, of_b.of);
+    if (paths_.none(common.paths)) return;
+    pairs_.push_back({a, b});
+    drawn_.differences.push_back({of_a.by, of_b.by, common, not_begun});
+  }
+
+  bool is_own(std::size_t k, const PicturePaths& of) const {
+    return own_[k] && paths_.are_same(drawn_.pictures[k].of.paths, of.paths);
+  }
+  bool is_of_own(std::size_t p) const {
+    const PicturePaths& of = drawn_.differences[p].of;
+    return is_own(pairs_[p].a, of) && is_own(pairs_[p].b, of);
+  }
+  bool is_to_come(std::size_t p) const {
+    return own_[pairs_[p].a] && own_[pairs_[p].b] && drawn_.differences[p].refused == not_begun;
+  }
+
+  /// @throws core::InputError   it does not find what is asked for
+  /// @throws core::Interrupted  before every pixel had a sample
+  Rendering rendered(std::size_t k, const PicturePaths& of) {
+    run_.throw_if_stopped("pictures");
+    const std::string& integrator = drawn_.pictures[k].by;
+    montecarlo::RenderSettings settings;
+    settings.integrator = integrator;
+    settings.samples = samples_of(integrator, options_);
+    settings.paths = of.paths;
+    settings.solution = solution_;
+    Rendering picture = montecarlo::render(scene_, camera_, settings, run_, *rays_);
+    if (!picture.complete)
+      core::log::warning(core::format("stopped: the picture by %s%s has %llu samples a pixel", integrator.c_str(),
+                                      but(of).c_str(), static_cast<unsigned long long>(picture.samples)));
+    return picture;
+  }
+
+  void draw_own(std::size_t k) {
+    PictureDrawn& told = drawn_.pictures[k];
+    try {
+      if (paths_.none(told.of.paths) && !told.of.missed.empty())
+        throw core::InputError("finds none of these paths, " + told.of.missed);
+      own_[k] = rendered(k, told.of);
+    } catch (const core::InputError& error) {
+      refuse(k, error.what());
+      return;
+    }
+    told.samples = own_[k]->samples;
+    told.complete = own_[k]->complete;
+    told.refused.clear();
+    const std::string name = file_of(told.by, told.of);
+    results::write_image(file(name + ".exr", told.files), with_errors_and_samples(*own_[k]));
+    results::write_image(file(name + ".png", told.files), results::as_rgb(scene_, own_[k]->radiance));
+  }
+
+  void refuse(std::size_t k, const std::string& why) {
+    PictureDrawn& told = drawn_.pictures[k];
+    told.refused = why;
+    core::log::warning("no picture by " + told.by + ": " + why);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (pairs_[p].a == k || pairs_[p].b == k) drawn_.differences[p].refused = "no picture by " + told.by;
+  }
+
+  /// All differences of pictures of these paths.  Those drawn again for them are kept no longer.
+  void draw_on(const PicturePaths& of) {
+    Again again(own_.size());
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      if (!is_to_come(p) || !paths_.are_same(drawn_.differences[p].of.paths, of.paths)) continue;
+      const auto [a, b] = pairs_[p];
+      if (draws_on_these(a, of, again, p) && draws_on_these(b, of, again, p))
+        write_difference(p, on_these(a, of, again), on_these(b, of, again));
+    }
+  }
+
+  /// Draws it once more where its own picture is of others.
+  bool draws_on_these(std::size_t k, const PicturePaths& of, Again& again, std::size_t p) {
+    DifferenceDrawn& told = drawn_.differences[p];
+    try {
+      if (!is_own(k, of) && !again[k]) again[k] = rendered(k, of);
+      return true;
+    } catch (const core::InputError& error) {
+      told.refused = error.what();
+      core::log::warning("no difference of " + told.a + " and " + told.b + ": " + told.refused);
+      return false;
+    }
+  }
+  const Rendering& on_these(std::size_t k, const PicturePaths& of, const Again& again) const {
+    return is_own(k, of) ? *own_[k] : *again[k];
+  }
+
+  void write_difference(std::size_t p, const Rendering& a, const Rendering& b) {
+    DifferenceDrawn& told = drawn_.differences[p];
+    told.samples = std::min(a.samples, b.samples);
+    told.complete = a.complete && b.complete;
+    told.refused.clear();
+    const std::string name = "compared_" + told.a + "_" + told.b;
+    results::write_png(file(name + ".png", told.files), beside(scene_, told, a, b));
+    results::write_image(file(name + ".exr", told.files),
+                         results::difference_layers({a.radiance, a.standard_error}, {b.radiance, b.standard_error}));
+  }
+
+  std::filesystem::path file(const std::string& name, std::vector<std::string>& files) const {
+    files.push_back(name);
     return options_.out / name;
   }
 
   const scene::Scene& scene_;
   scene::CameraId camera_;
-  const FirstPass& first_pass_;
+  ComparedPaths paths_;
   const CompareOptions& options_;
   Run& run_;
+  measure::SurfaceSolution solution_;
   std::unique_ptr<raycast::RayCaster> rays_;
-  std::optional<Drawn> first_;
-  std::vector<std::string> files_;
+  Again own_;                ///< each one's picture of what it finds
+  std::vector<Pair> pairs_;  ///< as drawn_.differences
+  PicturesDrawn drawn_;
 };
 
 }  // namespace
 
+std::vector<std::string> PicturesDrawn::files() const {
+  std::vector<std::string> all;
+  for (const PictureDrawn& each : pictures) all.insert(all.end(), each.files.begin(), each.files.end());
+  for (const DifferenceDrawn& each : differences) all.insert(all.end(), each.files.begin(), each.files.end());
+  return all;
+}
+
 void remove_comparison_pictures(const std::filesystem::path& folder) {
-  const std::vector<std::string> possible = possible_files();
   for (const std::string& file : drawn_before(folder / "compare.json")) {
     // A record can be written by anyone: nothing is removed that no comparison draws.
-    if (std::ranges::find(possible, file) == possible.end()) continue;
+    if (!is_drawn_by_comparisons(file)) continue;
     std::error_code error;
     std::filesystem::remove(folder / file, error);
     if (error) core::log::warning((folder / file).string() + ": of an earlier comparison: " + error.message());
   }
 }
 
-std::vector<std::string> write_comparison_pictures(const scene::Scene& scene, scene::CameraId camera,
-                                                   const std::vector<std::string>& names, const FirstPass& first_pass,
-                                                   const CompareOptions& options, Run& run) {
-  Artist artist(scene, camera, first_pass, options, run);
+PicturesDrawn write_comparison_pictures(const scene::Scene& scene, scene::CameraId camera,
+                                        const std::vector<std::string>& names, const FirstPass& first_pass,
+                                        const CompareOptions& options, Run& run) {
+  Artist artist(scene, camera, names, first_pass, options, run);
   try {
-    for (const std::string& name : names) artist.draw(name);
+    artist.draw();
   } catch (const core::Interrupted&) {
     core::log::warning("stopped: not every picture was drawn");
   }
-  return artist.files();
+  return artist.drawn();
 }
 
 }  // namespace interflect::apps

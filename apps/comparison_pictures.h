@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "apps/comparison_paths.h"
 #include "apps/first_pass.h"
 #include "apps/options.h"
 #include "core/run.h"
@@ -11,16 +13,44 @@
 
 namespace interflect::apps {
 
-/// Removes what an earlier comparison left in the folder, by its compare.json: pictures that this one does not write would
-/// look like its own.  Those of other commands stay.
+/// What an integrator drew.
+struct PictureDrawn {
+  std::string by;
+  PicturePaths of;
+  std::string refused;               ///< why there is none; empty: there is one
+  std::vector<std::string> files{};  ///< their names
+  std::uint64_t samples = 0;         ///< a pixel
+  bool complete = false;             ///< it has all samples that were asked for
+};
+
+/// How two of them differ on the paths that both find, a - b.
+struct DifferenceDrawn {
+  std::string a, b;
+  PicturePaths of;
+  std::string refused;
+  std::vector<std::string> files{};
+  std::uint64_t samples = 0;  ///< a pixel, of the picture of these paths that has fewer
+  bool complete = false;      ///< both of them
+};
+
+struct PicturesDrawn {
+  std::vector<PictureDrawn> pictures;        ///< in the order of the integrators
+  std::vector<DifferenceDrawn> differences;  ///< of each that has paths in common with one before it
+
+  std::vector<std::string> files() const;
+};
+
+/// Removes what an earlier comparison left in the folder, by its compare.json: pictures that this one does not write
+/// would look like its own.  Those of other commands stay.
 void remove_comparison_pictures(const std::filesystem::path& folder);
 
-/// NAME.exr and NAME.png of each integrator, and what differs from the first beside both.  They grow sample by sample, as
-/// those of `trace`: where the run is stopped, the one at work is written with the samples that it has, and those to come
-/// are not.  Who refuses is told of in a warning.
-/// @return  the names of the files
-std::vector<std::string> write_comparison_pictures(const scene::Scene& scene, scene::CameraId camera,
-                                                   const std::vector<std::string>& names, const FirstPass& first_pass,
-                                                   const CompareOptions& options, Run& run);
+/// NAME.exr and NAME.png of each integrator, NAME_but_MISSED of one that finds a part of what is asked for; and of each
+/// pair compared_NAME_EARLIER.png, both beside each other and what differs, and .exr, what differs in numbers, on the
+/// paths that both find: who found more is drawn once more for each set of such paths.  They grow sample by sample, as
+/// those of `trace`: where the run is stopped, the one at work is kept with the samples that it has, and those to come
+/// are not drawn.  Who refuses is told of in a warning.
+PicturesDrawn write_comparison_pictures(const scene::Scene& scene, scene::CameraId camera,
+                                        const std::vector<std::string>& names, const FirstPass& first_pass,
+                                        const CompareOptions& options, Run& run);
 
 }  // namespace interflect::apps

@@ -36,9 +36,19 @@ const char* verdict(const std::vector<Compared>& all) {
   return any ? "all agree" : "nothing was held against anything";
 }
 
+/// Why 1 / (variance x time) says nothing of a trial; empty where it does.
+std::string why_no_efficiency(const scene::Scene& scene, const IntegratorTrial& trial) {
+  const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
+  if (errors.over == 0) return "all values are 0";
+  if (!std::isfinite(errors.both())) return "not every error is known";
+  if (errors.both() == 0) return "no value has an error";
+  return trial.processor_seconds > 0 ? "" : "it took no time that a clock shows";
+}
+
 std::string efficiency_table(const scene::Scene& scene, const std::vector<Compared>& all) {
   Table table(
       {"measured", "integrator", "samples", "processor s", "error %", "of it bound %", "efficiency 1/s", "but paths"});
+  std::string without;
   for (const Compared& of : all)
     for (const IntegratorTrial& trial : of.comparison.trials) {
       if (!trial.refused.empty()) continue;
@@ -46,12 +56,14 @@ std::string efficiency_table(const scene::Scene& scene, const std::vector<Compar
       for (const Estimate& each : trial.found) samples = std::max(samples, each.samples);
       const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
       const bool known = errors.over > 0;
+      const std::string none = why_no_efficiency(scene, trial);
       table.add({of.kind.name, trial.integrator, core::format_count(samples),
                  core::format("%.3g", trial.processor_seconds), known ? core::format("%.2g", 100 * errors.both()) : "-",
                  errors.bound > 0 ? core::format("%.2g", 100 * errors.bound) : "",
-                 core::format("%.3g", trial.efficiency(scene)), trial.missed});
+                 none.empty() ? core::format("%.3g", trial.efficiency(scene)) : "-", trial.missed});
+      if (!none.empty()) without += trial.integrator + " has no efficiency of " + of.kind.name + ": " + none + "\n";
     }
-  return table.text();
+  return table.text() + without;
 }
 
 /// Of integrators whose error bound is that of a solution made before: samples do not lower it.
@@ -81,6 +93,7 @@ std::string sample_texts(const std::vector<Compared>& all) {
   for (const Compared& of : all) {
     const auto add = [&](const std::string& who, const montecarlo::SampleReport& report) {
       if (!report.heavy.empty()) text += of.kind.name + " by " + who + ": " + report.heavy_text(of.kind.names) + "\n";
+      if (!report.rare.empty()) text += of.kind.name + " by " + who + ": " + report.rare + "\n";
       if (report.not_finite > 0)
         text += core::format("%s by %s: %llu samples were not finite and count as zero: a bug\n", of.kind.name.c_str(),
                              who.c_str(), static_cast<unsigned long long>(report.not_finite));
@@ -110,6 +123,7 @@ void add_samples(const montecarlo::SampleReport& report, const std::vector<std::
                  results::Record& record) {
   record.add("samples_not_finite", report.not_finite).add("by_one_sample", report.heavy.size());
   if (!report.heavy.empty()) record.add("worst_by_one_sample", report.heavy_text(names));
+  if (!report.rare.empty()) record.add("rare_light", report.rare);
 }
 
 std::string refusals(const std::vector<Compared>& all) {
@@ -155,13 +169,39 @@ results::Record record_of(const scene::Scene& scene, const ComparedKind& kind, c
   record.add("integrator", trial.integrator).add("paths", trial.paths.expression()).add("missed", trial.missed);
   if (!trial.refused.empty()) return record.add("refused", trial.refused);
   const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
-  record.add("processor_seconds", trial.processor_seconds)
-      .add("efficiency", trial.efficiency(scene))
-      .add("relative_noise", errors.noise)
+  record.add("processor_seconds", trial.processor_seconds);
+  if (const std::string none = why_no_efficiency(scene, trial); none.empty())
+    record.add("efficiency", trial.efficiency(scene));
+  else
+    record.add_nothing("efficiency").add("no_efficiency", none);
+  record.add("relative_noise", errors.noise)
       .add("relative_bound", errors.bound)
       .add("misses_target_by_bound", is_beyond_by_its_bound(scene, trial, target));
   add_samples(trial.report, kind.names, record);
   return record;
+}
+
+results::Record record_of(const PictureDrawn& picture) {
+  results::Record record;
+  record.add("integrator", picture.by).add("paths", picture.of.paths.expression()).add("missed", picture.of.missed);
+  if (!picture.refused.empty()) return record.add("refused", picture.refused);
+  return record.add("files", picture.files).add("samples", picture.samples).add("complete", picture.complete);
+}
+
+results::Record record_of(const DifferenceDrawn& difference) {
+  results::Record record;
+  record.add("pair", difference.a + " - " + difference.b)
+      .add("paths", difference.of.paths.expression())
+      .add("missed", difference.of.missed);
+  if (!difference.refused.empty()) return record.add("refused", difference.refused);
+  return record.add("files", difference.files).add("samples", difference.samples).add("complete", difference.complete);
+}
+
+template <class Drawn>
+results::Record::List records_of(const std::vector<Drawn>& drawn) {
+  results::Record::List records;
+  for (const Drawn& each : drawn) records.push_back(record_of(each));
+  return records;
 }
 
 results::Record record_of(const Compared& of, std::size_t p) {
@@ -213,9 +253,17 @@ std::string comparison_csv(const scene::Scene& scene, const std::vector<Compared
   return csv.str();
 }
 
+std::string pictures_text(const PicturesDrawn& pictures) {
+  std::string text;
+  for (const PictureDrawn& each : pictures.pictures)
+    if (!each.of.missed.empty() && each.refused.empty())
+      text += each.files.back() + ": all that " + each.by + " finds, not such paths as " + each.of.missed + "\n";
+  return text;
+}
+
 results::Record comparison_record(const scene::Scene& scene, const std::vector<Compared>& all,
                                   const CompareOptions& options, double z_max, bool stopped,
-                                  const std::vector<std::string>& pictures) {
+                                  const PicturesDrawn& pictures) {
   results::Record::List kinds;
   for (const Compared& of : all) {
     results::Record::List trials, pairs;
@@ -230,7 +278,8 @@ results::Record comparison_record(const scene::Scene& scene, const std::vector<C
   }
   results::Record record;
   record.add("scene", options.scene.string()).add("target", options.target).add("paths", options.paths);
-  record.add("pictures", pictures);
+  record.add("pictures", pictures.files()).add("drawn", records_of(pictures.pictures));
+  record.add("differences", records_of(pictures.differences));
   return record.add("agree", all_agree(all)).add("z_max", z_max).add("stopped", stopped).add("kinds", std::move(kinds));
 }
 

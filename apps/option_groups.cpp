@@ -263,9 +263,10 @@ void add_target(CLI::App& command, double& target) {
 
 void add_paths(CLI::App& command, std::string& paths) {
   command
-      .add_option("--paths", paths,
-                  "Paths of light that count, from light to eye: L any light (A with an area, P point, F far), D "
-                  "diffuse, G glossy, S mirror or glass, . any of these; ( ) | * + ? as ever")
+      .add_option(
+          "--paths", paths,
+          "Paths of light that count, from light to eye: L any light (A with an area, P point, F far, B parallel), D "
+          "diffuse, G glossy, S mirror or glass, . any of these; ( ) | * + ? as ever")
       ->check(named("paths"))
       ->capture_default_str();
 }

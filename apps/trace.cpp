@@ -28,6 +28,7 @@ struct SamplesTold {
   std::uint64_t not_finite = 0;
   std::size_t heavy = 0;  ///< measurements of which one sample is much
   std::string text = {};  ///< of the worst of these
+  std::string rare = {};  ///< of light that samples may not have met
 };
 
 SamplesTold told_of(const montecarlo::Rendering& picture) {
@@ -66,7 +67,7 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, con
   results::write_surfaces_csv(options.estimates / "surfaces.csv", rows, scene);
   results::write_sensors_csv(options.estimates / "sensors.csv", questions.points,
                              std::span(found).subspan(means.size()), scene);
-  told = {report.not_finite, report.heavy.size(), report.heavy_text(names_of(scene, questions))};
+  told = {report.not_finite, report.heavy.size(), report.heavy_text(names_of(scene, questions)), report.rare};
 }
 
 /// What there is to tell at the end.
@@ -119,7 +120,8 @@ montecarlo::Rendering rendered(const scene::Scene& scene, scene::CameraId camera
 }
 
 void print_text(const SamplesTold& told) {
-  if (!told.text.empty()) std::printf("%s\n", told.text.c_str());
+  for (const std::string& line : {told.text, told.rare})
+    if (!line.empty()) std::printf("%s\n", line.c_str());
   if (told.not_finite > 0)
     std::printf("%llu samples were not finite and count as zero: a bug\n",
                 static_cast<unsigned long long>(told.not_finite));
@@ -140,6 +142,7 @@ void print_text(const Traced& t) {
 void add(const SamplesTold& told, const std::string& of, results::Record& record) {
   record.add(of + "samples_not_finite", told.not_finite).add(of + "by_one_sample", told.heavy);
   if (!told.text.empty()) record.add(of + "worst_by_one_sample", told.text);
+  if (!told.rare.empty()) record.add(of + "rare_light", told.rare);
 }
 
 results::Record record_of(const Traced& t) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 #include "core/vec.h"
@@ -46,13 +47,24 @@ inline void sin_cos_turns(double turns, double& sine, double& cosine) {
   cosine = (1 - ((quarter + 1) & 2)) * (even * c + odd * s);
 }
 
+/// Turns of a direction about z, 0 <= t < 1.
+inline double turns_about_z(const Vec3& way) {
+  const double turns = std::atan2(way.y(), way.x()) / (2 * pi);
+  return turns < 0 ? std::min(turns + 1, 1 - 0x1p-53) : turns;
+}
+
 /// A direction about +z with pdf_solid_angle = cos(theta) / pi [1/sr]; z > 0 always, for u < 1.  (Malley: a uniform
-/// disk, lifted.)
+/// disk, lifted.)  Round trip: 1e-12.
 inline Vec3 cosine_hemisphere(double u, double v) {
   double sine, cosine;
   sin_cos_turns(v, sine, cosine);
   const double r = std::sqrt(u);
   return {r * cosine, r * sine, std::sqrt(1 - u)};
+}
+
+/// (u, v) of a direction.
+inline Vec2 cosine_hemisphere_inverse(const Vec3& way) {
+  return {way.x() * way.x() + way.y() * way.y(), turns_about_z(way)};
 }
 
 /// Many of them at once, which is several times sooner.
@@ -71,10 +83,24 @@ struct CosineHemisphere {
   Eigen::Array<double, N, 1> x_, y_, z_;
 };
 
-/// A point of a triangle with pdf_area = 1 / area [Turk 1990].
+/// A point of a triangle with pdf_area = 1 / area [Turk 1990].  Round trip: 1e-12 of u and of sqrt(u) v, of triangles
+/// that are not far from the origin for their size.
 inline Vec3 triangle_point(const Vec3& a, const Vec3& b, const Vec3& c, double u, double v) {
   const double s = std::sqrt(u);
   return a + s * (1 - v) * (b - a) + s * v * (c - a);
+}
+
+/// Of `triangle_point` [1/m²].
+inline double triangle_point_pdf_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return 2 / (b - a).cross(c - a).norm();
+}
+
+/// (u, v) of a point of the triangle's plane; of corner a, where all v meet, v = 0.
+inline Vec2 triangle_point_inverse(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point) {
+  const Vec3 normal = (b - a).cross(c - a);
+  const double to_b = (point - a).cross(c - a).dot(normal), to_c = (b - a).cross(point - a).dot(normal);
+  const double both = to_b + to_c, s = both / normal.squaredNorm();
+  return {s * s, both > 0 ? to_c / both : 0};
 }
 
 }  // namespace interflect::core

@@ -12,7 +12,7 @@ namespace interflect::measure {
 namespace {
 
 constexpr std::size_t most_states = 64, longest_expression = 1000;
-constexpr const char* letters = "APFDGSE";
+constexpr const char* letters = "APFBDGSE";
 
 [[noreturn]] void too_many(const std::string& expression) {
   throw core::InputError("paths '" + expression + "'", "an expression of at most 64 states expected");
@@ -29,7 +29,7 @@ class PathExpression {
 
   PathClasses read() {
     const Part whole = alternatives();
-    if (at_ < text_.size()) fail("a letter of LAPFDGSE.()|*+? expected");
+    if (at_ < text_.size()) fail("a letter of LAPFBDGSE.()|*+? expected");
     return determined(whole);
   }
 
@@ -101,10 +101,10 @@ class PathExpression {
     }
     --depth_;
     const Part part{state(), state()};
-    const std::string read(1, text_[at_]), meant = read == "L" ? "APF" : read == "." ? "DGS" : read;
+    const std::string read(1, text_[at_]), meant = read == "L" ? "APFB" : read == "." ? "DGS" : read;
     for (const char c : meant) {
       const std::size_t letter = std::string(letters).find(c);
-      if (letter == std::string::npos) fail("a letter of LAPFDGSE.()|*+? expected");
+      if (letter == std::string::npos) fail("a letter of LAPFBDGSE.()|*+? expected");
       states_[static_cast<std::size_t>(part.first)].on[letter] = part.last;
     }
     ++at_;

@@ -12,13 +12,14 @@ namespace interflect::measure {
 enum class PathLetter : std::uint8_t {
   area,      ///< A: a light that has an area: surfaces, balls
   point,     ///< P: a light that has none: points and spots
-  far,       ///< F: a light from afar: the sun, the sky
+  far,       ///< F: a light from afar that has an extent in the sky: the sun, the sky
+  beam,      ///< B: one that has none: a sun without an angle, parallel light
   diffuse,   ///< D: by a diffuse surface
   glossy,    ///< G: by one that favours directions, and none alone
   specular,  ///< S: by a mirror or a smooth boundary, into a direction of its own
   eye        ///< E: a patch, a point, or a pixel, that is measured
 };
-inline constexpr std::size_t path_letters = 7;
+inline constexpr std::size_t path_letters = 8;
 
 /// A set of paths by a regular expression of those letters, from the light to the eye; `L` is any light, `.` any
 /// scattering: `L.*E` are all paths, `LD*E` what radiosity finds, `LD?S*E` what Whitted's ray tracing does.

@@ -15,8 +15,8 @@
 namespace interflect::montecarlo {
 namespace {
 
-template <class Integrator, class Settings>
-std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
+template <class Settings>
+Settings told(const IntegratorSettings& asked) {
   Settings settings;
   settings.samples = asked.samples;
   settings.target = asked.target;
@@ -24,7 +24,18 @@ std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
   settings.paths = asked.paths;
   settings.report = asked.report;
   if constexpr (requires { settings.solution; }) settings.solution = asked.solution;
-  return std::make_unique<Integrator>(std::move(settings));
+  return settings;
+}
+
+template <class Integrator, class Settings>
+std::unique_ptr<measure::Method> make(const IntegratorSettings& asked) {
+  return std::make_unique<Integrator>(told<Settings>(asked));
+}
+
+std::unique_ptr<measure::Method> make_unidirectional(const IntegratorSettings& asked) {
+  auto settings = told<PathTracerSettings>(asked);
+  settings.next_event = NextEvent::no;
+  return std::make_unique<PathTracer>(std::move(settings));
 }
 
 }  // namespace
@@ -33,6 +44,12 @@ const std::vector<IntegratorEntry>& known_integrators() {
   static const std::vector<IntegratorEntry> all{
       {"path", "paths from what is measured, lights found by both ways", false, make<PathTracer, PathTracerSettings>,
        path_exposure},
+      {.name = "unidirectional",
+       .summary = "the same, lights found by chance alone: noisy, and simple enough to judge the others by",
+       .shares_paths = false,
+       .make = make_unidirectional,
+       .expose = unidirectional_exposure,
+       .by_chance = true},
       {"bidirectional", "walks from both ends, joined in all ways", false,
        make<BidirectionalTracer, BidirectionalTracerSettings>, bidirectional_exposure},
       {"light", "paths from lights, all measurements by the same ones", true, make<LightTracer, LightTracerSettings>,

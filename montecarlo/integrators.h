@@ -32,6 +32,7 @@ struct IntegratorEntry {
   bool by_quadrature = false;   ///< a picture's samples are points in `sequence_batches` copies, and may leave some out
   bool needs_solution = false;  ///< IntegratorSettings::solution
   bool inherits_error = false;  ///< of it: a bound that samples do not lower
+  bool by_chance = false;       ///< meets lights by chance alone: where these are small, no sensible time is enough
 };
 const std::vector<IntegratorEntry>& known_integrators();
 std::vector<std::string> integrator_names();

@@ -94,7 +94,7 @@ void LightPaths::trace(core::RandomNumbers& numbers, Deposits& deposits) const {
   Spectrum flux = emission.weight / probability;
   if (!targets_.empty()) join_emission(light, emission, probability, numbers, deposits);
   const double at_first = flux.max();
-  if (!(at_first > 0)) return;
+  if (flux.is_zero()) return;  // and not where it is no number
   const bool from_afar = lights_[light].is_infinite();
   raycast::Ray ray{emission.position, emission.way, from_afar ? Vec3(Vec3::Zero()) : emission.normal};
   std::optional<std::uint32_t> leaves = light;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "montecarlo/roulette.h"
+#include "montecarlo/scene_paths.h"
 #include "montecarlo/warp.h"
 
 namespace interflect::montecarlo {
@@ -15,13 +16,17 @@ Vec3 normal_towards(const Vec3& front, double z) { return z >= 0 ? front : Vec3(
 }  // namespace
 
 PathEstimator::PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster,
-                             const measure::PathClasses& paths)
+                             const measure::PathClasses& paths, NextEvent next_event)
     : scene_(scene),
       paths_(paths),
       all_paths_(paths == measure::PathClasses::all()),
+      next_event_(next_event == NextEvent::yes),
       lights_(scene),
       optics_(scene),
-      sight_(caster, lights_, optics_) {}
+      sight_(caster, lights_, optics_),
+      largest_score_(2 * lights_.largest_find()) {
+  if (!next_event_ || scatters_in(scene).specular) largest_score_ = max(largest_score_, lights_.brightest());
+}
 
 PathEstimator::Carried PathEstimator::from_eye() const {
   Carried path;
@@ -108,7 +113,7 @@ Place PathEstimator::place_of(const Vertex& at) {
 std::optional<PathEstimator::Candidate> PathEstimator::from_lights(const Vertex& at, const Carried& path,
                                                                    const Place& place, double pick, double u,
                                                                    double v) const {
-  if (at.bsdf->only_delta() || lights_.empty()) return std::nullopt;
+  if (!next_event_ || at.bsdf->only_delta() || lights_.empty()) return std::nullopt;
   const auto [index, probability] = lights_.pick(place, pick);
   const Light& light = lights_[index];
   if (!all_paths_ && !measure::PathClasses::complete(paths_.after(with_letter(path, at), letter_of(light))))
@@ -145,7 +150,7 @@ Spectrum PathEstimator::escaped(const Drawn& drawn, const Carried& path) const {
 Spectrum PathEstimator::shines(std::uint32_t light, const Drawn& drawn, const Vec3& from) const {
   const Vec3& way = drawn.ray.direction;
   const Spectrum radiance = lights_[light].radiance(from, -way);
-  if (radiance.is_zero() || drawn.pdf_solid_angle == 0) return radiance;
+  if (!next_event_ || radiance.is_zero() || drawn.pdf_solid_angle == 0) return radiance;
   const double by_light =
       lights_.probability(light, drawn.from) * lights_[light].pdf_arriving_solid_angle(drawn.from, way, from);
   return radiance * (drawn.pdf_solid_angle / (drawn.pdf_solid_angle + by_light));

@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "measure/path_classes.h"
 #include "montecarlo/bsdf/lambert.h"
+#include "montecarlo/next_event.h"
 #include "montecarlo/path_letters.h"
 #include "montecarlo/receiver.h"
 #include "montecarlo/sight.h"
@@ -33,9 +34,10 @@ namespace interflect::montecarlo {
 class PathEstimator {
  public:
   /// Scene and caster must outlive it.
-  /// @param paths  those that count
+  /// @param paths       those that count
+  /// @param next_event  without it light is found by the ray alone, with the weight 1
   PathEstimator(const scene::Scene& scene, const raycast::RayCaster& caster,
-                const measure::PathClasses& paths = measure::PathClasses::all());
+                const measure::PathClasses& paths = measure::PathClasses::all(), NextEvent next_event = NextEvent::yes);
 
   /// Irradiance H at a place [W/m² | lx].  Uses the dimensions of `numbers` from `block` on, four blocks a vertex.
   Spectrum irradiance(const Receiver& at, core::RandomNumbers& numbers, std::uint32_t block) const;
@@ -61,10 +63,12 @@ class PathEstimator {
 
   const scene::Scene& scene() const { return scene_; }
   const LightSet& lights() const { return lights_; }
+  const measure::PathClasses& classes() const { return paths_; }  ///< that count
 
-  /// What one vertex of a path can add to an irradiance at most where all is diffuse, by the two techniques together
-  /// (beside points of light there is no such bound: LightSet::largest_find).
-  Spectrum largest_score() const { return 2 * lights_.largest_find(); }
+  /// What one vertex of a path can add to an irradiance at most: where all is diffuse by the two techniques together
+  /// (beside points of light there is no such bound: LightSet::largest_find), and by a ray alone, behind a mirror or
+  /// without the other, all of a light's radiance.
+  const Spectrum& largest_score() const { return largest_score_; }
 
  private:
   friend class ControlledPaths;  ///< the same steps, and a solution where paths end
@@ -128,11 +132,12 @@ class PathEstimator {
 
   const scene::Scene& scene_;
   measure::PathClasses paths_;
-  bool all_paths_;
+  bool all_paths_, next_event_;
   LightSet lights_;
   SurfaceOptics optics_;
   Sight sight_;
   Lambert receiver_{Spectrum(1)};
+  Spectrum largest_score_;
 };
 
 }  // namespace interflect::montecarlo

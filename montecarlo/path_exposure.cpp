@@ -15,14 +15,14 @@ constexpr std::size_t given_numbers = 12;
 class PathExposure final : public PixelExposure {
  public:
   PathExposure(const scene::Scene& scene, const scene::Camera& camera, const RenderSettings& settings,
-               const ReconstructionFilter& filter, const raycast::RayCaster& caster, Run& run)
+               const ReconstructionFilter& filter, const raycast::RayCaster& caster, Run& run, NextEvent next_event)
       : PixelExposure(settings.independent() ? 1 : sequence_batches, run),
         settings_(settings),
         camera_(camera),
         map_(camera),
         filter_(filter),
         sequence_(core::make_sequence(settings.sequence, core::derived_seed(run.seed, "path tracer sequences"))),
-        paths_(scene, caster, settings.paths),
+        paths_(scene, caster, settings.paths, next_event),
         seed_(core::derived_seed(run.seed, "path tracer pixels")) {}
 
   Spectrum largest_score() const override { return paths_.largest_score(); }
@@ -72,7 +72,13 @@ class PathExposure final : public PixelExposure {
 std::unique_ptr<Exposure> path_exposure(const scene::Scene& scene, const scene::Camera& camera,
                                         const RenderSettings& settings, const ReconstructionFilter& filter,
                                         const raycast::RayCaster& caster, Run& run) {
-  return std::make_unique<PathExposure>(scene, camera, settings, filter, caster, run);
+  return std::make_unique<PathExposure>(scene, camera, settings, filter, caster, run, NextEvent::yes);
+}
+
+std::unique_ptr<Exposure> unidirectional_exposure(const scene::Scene& scene, const scene::Camera& camera,
+                                                  const RenderSettings& settings, const ReconstructionFilter& filter,
+                                                  const raycast::RayCaster& caster, Run& run) {
+  return std::make_unique<PathExposure>(scene, camera, settings, filter, caster, run, NextEvent::no);
 }
 
 }  // namespace interflect::montecarlo

@@ -7,7 +7,7 @@
 namespace interflect::montecarlo {
 
 inline measure::PathLetter letter_of(const Light& light) {
-  if (light.is_infinite()) return measure::PathLetter::far;
+  if (light.is_infinite()) return light.is_delta_direction() ? measure::PathLetter::beam : measure::PathLetter::far;
   return light.is_delta_position() ? measure::PathLetter::point : measure::PathLetter::area;
 }
 

@@ -3,8 +3,10 @@
 #include <chrono>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "montecarlo/measurement_sampler.h"
+#include "montecarlo/rare_light.h"
 #include "montecarlo/sampling.h"
 #include "montecarlo/scene_paths.h"
 
@@ -18,7 +20,8 @@ SamplingSettings sampling_of(const PathTracerSettings& s) {
 
 class PathTraced final : public SampledMeasurements {
  public:
-  PathTraced(const PathEstimator& paths, std::span<const measure::Measurement> asked) : paths_(paths) {
+  PathTraced(const PathEstimator& paths, std::span<const measure::Measurement> asked)
+      : paths_(paths), rare_(montecarlo::rare_light(paths.scene(), paths.classes())) {
     measured_.reserve(asked.size());
     for (const measure::Measurement& each : asked) measured_.emplace_back(paths.scene(), each);
   }
@@ -28,6 +31,7 @@ class PathTraced final : public SampledMeasurements {
   std::size_t size() const override { return measured_.size(); }
   double scale(std::size_t m) const override { return measured_[m].scale(); }
   Spectrum largest_score() const override { return paths_.largest_score(); }
+  const RareLight* rare_light(std::size_t) const override { return rare_ ? &*rare_ : nullptr; }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
     measured_[m].sample(paths_, {seed, stream, first}, samples);
@@ -35,13 +39,15 @@ class PathTraced final : public SampledMeasurements {
 
  private:
   const PathEstimator& paths_;
+  std::optional<RareLight> rare_;
   std::vector<MeasurementSampler> measured_;
 };
 
 }  // namespace
 
 measure::Capabilities PathTracer::capabilities() const {
-  const auto finds = measure::PathClasses::of("(A|F).*E|PE|P(D|G).*E");
+  const bool next_event = settings_.next_event == NextEvent::yes;
+  const auto finds = measure::PathClasses::of(next_event ? "(A|F).*E|(P|B)((D|G).*)?E" : "(A|F).*E");
   return {.unbiased = true, .consistent = true, .to_patches = finds, .to_points = finds, .to_pixels = finds};
 }
 
@@ -54,7 +60,7 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
                                          Run& run, const raycast::RayCaster& caster) const {
   require_valid(sampling_of(settings_), "path tracer");
   require_found(*this, scene, asked, settings_.paths);
-  const PathEstimator paths(scene, caster, settings_.paths);
+  const PathEstimator paths(scene, caster, settings_.paths, settings_.next_event);
   const PathTraced measurements(paths, asked);
   if (paths.lights().empty())
     return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
@@ -70,7 +76,7 @@ PathTracer::Trial PathTracer::trial(const scene::Scene& scene, std::span<const m
   for (std::size_t i = 0; i < std::min(trials, asked.size()); ++i)
     tried.push_back(asked[i * asked.size() / std::min(trials, asked.size())]);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
-  const PathEstimator paths(scene, *caster, settings_.paths);
+  const PathEstimator paths(scene, *caster, settings_.paths, settings_.next_event);
   const PathTraced measurements(paths, tried);
   if (paths.lights().empty()) return {};
 

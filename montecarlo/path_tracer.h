@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "measure/method.h"
+#include "montecarlo/next_event.h"
 #include "raycast/ray_caster.h"
 
 namespace interflect::montecarlo {
@@ -21,6 +22,7 @@ struct PathTracerSettings {
   std::string intersector = "embree";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
   SampleReport* report = nullptr;  ///< of the samples behind the answers, to be added to; null: none
+  NextEvent next_event = NextEvent::yes;
 };
 
 /// Path tracing (Kajiya 1986): next-event estimation combined with direction sampling by multiple importance sampling
@@ -33,6 +35,9 @@ struct PathTracerSettings {
 /// Light of points and spots is found where it is picked for the surface that it arrives on, and not by a mirror or
 /// smooth glass: it refuses scenes that may have such light rather than leave it out.
 ///
+/// Without next-event estimation, as Kajiya's first, light is found where a path happens to meet it: with far more noise
+/// by small lights, and never that of points, spots and parallel light.
+///
 /// Standard errors are those of independent paths, of each channel and of the scene's weighted value.  A measurement
 /// whose every sample scored zero while something emits has the standard error 3 w / n instead of 0 (rule of three; w:
 /// PathEstimator::largest_score, in the measurement's unit), so that "nothing found" is never told as "nothing there".  A
@@ -40,7 +45,7 @@ struct PathTracerSettings {
 class PathTracer final : public measure::Method {
  public:
   explicit PathTracer(PathTracerSettings settings = {}) : settings_(std::move(settings)) {}
-  std::string name() const override { return "path"; }
+  std::string name() const override { return settings_.next_event == NextEvent::yes ? "path" : "unidirectional"; }
   measure::Capabilities capabilities() const override;
 
   /// When the run is stopped, the estimates have fewer samples.

@@ -14,6 +14,7 @@ void SampleReport::add(std::size_t measurement, const Tally& tally) {
 
 void SampleReport::add(const SampleReport& part, std::span<const std::size_t> of) {
   not_finite += part.not_finite;
+  if (!part.rare.empty()) rare = part.rare;
   for (const Heavy& each : part.heavy) heavy.push_back({of[each.measurement], each.share});
 }
 

@@ -9,8 +9,8 @@
 
 namespace interflect::montecarlo {
 
-/// What there is to say of samples beside the estimates that they make: those that are no numbers, as where a density is
-/// zero, and measurements of which one sample is so much that their standard errors may be far too small.
+/// What there is to say of samples beside the estimates that they make: those that are no numbers, as f / p is where
+/// the density p is zero, and measurements of which one sample is so much that their standard errors may be far too small.
 struct SampleReport {
   /// One sample is this share of what all samples of a measurement found.
   struct Heavy {
@@ -19,6 +19,7 @@ struct SampleReport {
   };
   std::uint64_t not_finite = 0;
   std::vector<Heavy> heavy;
+  std::string rare;  ///< of light that samples may not have met (RareLight::text); empty where there is none
 
   void add(std::size_t measurement, const Tally& tally);
   /// Of measurements of[0], of[1], .. of a longer list.

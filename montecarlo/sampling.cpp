@@ -114,6 +114,23 @@ double mean_irradiance_scale(const scene::Scene& scene, const Spectrum& flux) {
   return absorbing > 0 ? scene.weigh(flux) / absorbing : 0;
 }
 
+namespace {
+
+std::uint64_t samples_to_meet(const RareLight* rare, const SamplingTarget& target) {
+  if (rare == nullptr) return 0;
+  return static_cast<std::uint64_t>(std::ceil(std::min(rare->samples_to_meet(), static_cast<double>(target.most))));
+}
+
+void add_what_is_rare(const SampledMeasurements& measurements, std::size_t m, Estimate& estimate,
+                      SampleReport& report) {
+  const RareLight* rare = measurements.rare_light(m);
+  if (rare == nullptr || rare->is_met_by(estimate.samples)) return;
+  rare->widen(measurements.scene(), measurements.scale(m), estimate);
+  report.rare = rare->text(estimate.samples);
+}
+
+}  // namespace
+
 SamplingPlan plan_samples(const SampledMeasurements& measurements, const SamplingTarget& target, Run& run) {
   const std::uint64_t first = core::derived_seed(run.seed, measurements.name() + " pilot"),
                       second = core::derived_seed(run.seed, measurements.name() + " second pilot");
@@ -128,10 +145,11 @@ SamplingPlan plan_samples(const SampledMeasurements& measurements, const Samplin
     const auto needed = [&](std::uint64_t seed, std::uint64_t samples) {
       return samples_needed(known_of(sample_block(measurements, m, seed, 0, samples)), scale, largest, target);
     };
-    std::uint64_t n = needed(first, pilot_samples);
+    const std::uint64_t to_meet = samples_to_meet(measurements.rare_light(m), target);
+    std::uint64_t n = std::max(needed(first, pilot_samples), to_meet);
     if (const std::uint64_t more = std::min(n / 8, largest_pilot); more > pilot_samples) {
       spent[m] += more;
-      n = needed(second, more);
+      n = std::max(needed(second, more), to_meet);
     }
     plan.counts[m] = n;
     stage.advance();
@@ -157,6 +175,7 @@ std::vector<Estimate> sampled_answers(const SampledMeasurements& measurements, c
     warn_of_bugs(tallies[m], measurements.name().c_str(), m, seed);
     report.add(m, tallies[m]);
     estimates.push_back(tallies[m].estimate(measurements.scale(m) * measurements.largest_score()));
+    add_what_is_rare(measurements, m, estimates.back(), report);
   }
   if (settings.samples == 0) warn_of_cap(measurements, target, estimates);
   return estimates;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/run.h"
+#include "montecarlo/rare_light.h"
 #include "montecarlo/sample_report.h"
 
 namespace interflect::montecarlo {
@@ -23,6 +24,8 @@ class SampledMeasurements {
   virtual double scale(std::size_t measurement) const = 0;
   /// Of a measurement of scale 1, what a single sample finds at most, or nearly so.
   virtual Spectrum largest_score() const = 0;
+  /// Light that samples of a measurement find by chance alone; null where there is none.
+  virtual const RareLight* rare_light(std::size_t /*measurement*/) const { return nullptr; }
   /// The samples first, first + 1, .. of a measurement, sample k by the numbers of (seed, stream, k).
   /// @param samples  overwritten
   virtual void sample(std::size_t measurement, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
@@ -86,7 +89,8 @@ struct SamplingPlan {
 
 /// How many samples each measurement needs, from pilots that are thrown away: so the answer stays unbiased [Kirk and
 /// Arvo 1991].  The first pilot has 1024 samples.  Where it asks for more than eight times as many, a second one of n / 8
-/// samples (131 072 at most) decides: s² of few samples of a skewed distribution is too often far too small.
+/// samples (131 072 at most) decides: s² of few samples of a skewed distribution is too often far too small.  What is rare
+/// (SampledMeasurements::rare_light) is met by as many as it takes, up to the target's most.
 SamplingPlan plan_samples(const SampledMeasurements& measurements, const SamplingTarget& target, Run& run);
 
 /// The answers, planned where there is a target; what is not finite, and measurements that a cap ended, are warned of.

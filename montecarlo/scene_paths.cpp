@@ -1,10 +1,10 @@
 #include "montecarlo/scene_paths.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/error.h"
 #include "core/format.h"
-#include "montecarlo/bsdf/of_material.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -24,6 +24,8 @@ bool shines(const scene::Scene& scene) {
   return false;
 }
 
+bool has_angle(const scene::Sun& sun) { return sun.one_minus_cosine() > 0; }
+
 /// In words: what stands for a letter.
 std::string in_words(char letter) {
   switch (letter) {
@@ -33,6 +35,8 @@ std::string in_words(char letter) {
       return "a point or spot";
     case 'F':
       return "the sun or sky";
+    case 'B':
+      return "a sun without an angle";
     case 'D':
       return "a diffuse surface";
     case 'G':
@@ -56,20 +60,26 @@ std::string in_words(const std::string& path) {
 measure::PathClasses paths_in(const scene::Scene& scene) {
   const scene::Lights& lights = scene.lights;
   const bool area = shines(scene) || !lights.spheres.empty(), points = !lights.points.empty() || !lights.spots.empty(),
-             far = !lights.suns.empty() || lights.has_sky();
-  const std::string from = any_of("APF", {area, points, far});
-  std::array<bool, measure::path_letters> scatters{};
-  for (const scene::SurfaceId id : scene.surface_ids()) {
-    const Scatters by_this = scatters_of(scene.material(id));
-    scatters[0] |= by_this.diffuse, scatters[1] |= by_this.glossy, scatters[2] |= by_this.specular;
-  }
-  const std::string by = any_of("DGS", scatters);
+             disks = std::ranges::any_of(lights.suns, has_angle), beams = !std::ranges::all_of(lights.suns, has_angle),
+             far = disks || lights.has_sky();
+  const std::string from = any_of("APFB", {area, points, far, beams});
+  const Scatters surfaces = scatters_in(scene);
+  const std::string by = any_of("DGS", {surfaces.diffuse, surfaces.glossy, surfaces.specular});
   if (from.empty()) return measure::PathClasses::of("");
   return measure::PathClasses::of(from + (by.empty() ? "" : by + "*") + "E");
 }
 
+Scatters scatters_in(const scene::Scene& scene) {
+  Scatters any;
+  for (const scene::SurfaceId id : scene.surface_ids()) {
+    const Scatters by_this = scatters_of(scene.material(id));
+    any.diffuse |= by_this.diffuse, any.glossy |= by_this.glossy, any.specular |= by_this.specular;
+  }
+  return any;
+}
+
 measure::PathClasses that_reach(const measure::Measurement& asked, const measure::PathClasses& paths) {
-  return std::holds_alternative<measure::PixelRadiance>(asked) ? paths - measure::PathClasses::of("PS*E") : paths;
+  return std::holds_alternative<measure::PixelRadiance>(asked) ? paths - measure::PathClasses::of("(P|B)S*E") : paths;
 }
 
 void require_found(const measure::Method& method, const scene::Scene& scene,

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "measure/method.h"
+#include "montecarlo/bsdf/of_material.h"
 
 namespace interflect::montecarlo {
 
@@ -11,8 +12,11 @@ namespace interflect::montecarlo {
 /// office `(A)(D)*E`.
 measure::PathClasses paths_in(const scene::Scene& scene);
 
-/// Those of them that bring something to what is asked: what comes from points and spots straight into a pixel, `PS*E`,
-/// brings nothing, since their pictures have no area.
+/// What its surfaces do with light, any of them.
+Scatters scatters_in(const scene::Scene& scene);
+
+/// Those of them that bring something to what is asked: what comes from points, spots and parallel light into a
+/// pixel by mirrors alone, `(P|B)S*E`, brings nothing, since their pictures have no area.
 measure::PathClasses that_reach(const measure::Measurement& asked, const measure::PathClasses& paths);
 
 /// @throws core::InputError  if the method misses paths of `wanted` that there may be in the scene, to some of what is

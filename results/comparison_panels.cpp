@@ -63,8 +63,8 @@ double relative_difference(double fem, double traced, double noise) {
 }
 
 core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
-                             const core::Image& noise, double full_scale) {
-  const Blocks a = block_means(scene, fem), b = block_means(scene, traced), error = block_noise(scene, noise);
+                             const Blocks& error, double full_scale) {
+  const Blocks a = block_means(scene, fem), b = block_means(scene, traced);
   core::Image picture(fem.width, fem.height, {"R", "G", "B"});
   for (int y = 0; y < fem.height; ++y)
     for (int x = 0; x < fem.width; ++x) {
@@ -79,15 +79,21 @@ core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, 
 }  // namespace
 
 ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
-                                   const core::Image& noise, double full_scale) {
+                                   const core::Image& noise, double full_scale, const core::Image* shared_error) {
   const auto same_size = [&](const core::Image& other) {
     return other.width == fem.width && other.height == fem.height;
   };
-  if (!same_size(traced) || !same_size(noise) || !(full_scale > 0))
+  if (!same_size(traced) || !same_size(noise) || !(full_scale > 0) ||
+      (shared_error != nullptr && !same_size(*shared_error)))
     throw core::PreconditionError("comparison_panels: pictures of one size and a scale above 0 expected");
+  Blocks error = block_noise(scene, noise);
+  if (shared_error != nullptr) {
+    const Blocks shared = block_means(scene, *shared_error);
+    for (std::size_t k = 0; k < error.mean.size(); ++k) error.mean[k] = std::hypot(error.mean[k], shared.mean[k]);
+  }
   const core::Image left = as_rgb(scene, fem), right = as_rgb(scene, traced);
   const ToneMapping tone{.white = white_of(right)};
-  return {tone_mapped(left, tone), tone_mapped(right, tone), difference_panel(scene, fem, traced, noise, full_scale)};
+  return {tone_mapped(left, tone), tone_mapped(right, tone), difference_panel(scene, fem, traced, error, full_scale)};
 }
 
 }  // namespace interflect::results

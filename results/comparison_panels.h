@@ -18,7 +18,10 @@ struct ComparisonPanels {
 /// @param full_scale   relative difference at full colour.  It is of the weighted radiance, averaged over blocks of 6 x
 ///                     6 pixels, for a single traced pixel is noise; what is below three standard errors of the block's
 ///                     mean stays white
+/// @param shared_error standard errors that a block's pixels may have in common, as those of a quadrature: their mean over
+///                     a block is as large as they are.  Null: there are none
 ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
-                                   const core::Image& noise, double full_scale);
+                                   const core::Image& noise, double full_scale,
+                                   const core::Image* shared_error = nullptr);
 
 }  // namespace interflect::results

@@ -25,6 +25,7 @@ class Writer {
   const std::vector<std::string>& not_finite() const { return not_finite_; }
 
  private:
+  Json json(std::monostate, const std::string&) { return nullptr; }
   Json json(bool value, const std::string&) { return value; }
   Json json(std::int64_t value, const std::string&) { return value; }
   Json json(std::uint64_t value, const std::string&) { return value; }

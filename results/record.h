@@ -19,7 +19,8 @@ class Record {
   using Numbers = std::vector<double>;
   using Strings = std::vector<std::string>;
   using List = std::vector<Record>;
-  using Value = std::variant<bool, std::int64_t, std::uint64_t, double, std::string, Numbers, Strings, Record, List>;
+  using Value = std::variant<bool, std::int64_t, std::uint64_t, double, std::string, Numbers, Strings, Record, List,
+                             std::monostate>;
 
   Record& add(std::string key, bool value);
   Record& add(std::string key, double value);
@@ -37,6 +38,8 @@ class Record {
   }
   /// The first `channels` numbers of a spectrum.
   Record& add(std::string key, const Spectrum& value, int channels);
+  /// There is no such value, null.
+  Record& add_nothing(std::string key) { return add_value(std::move(key), std::monostate{}); }
   /// An empty section, to be filled through the reference.
   Record& section(std::string key);
 

@@ -65,7 +65,7 @@ void BidirectionalEstimator::walk_from_light(core::RandomNumbers& numbers, Light
                 afar ? emission.pdf_area : emission.pdf_solid_angle};
   Spectrum flux = emission.weight / pick;
   const double at_first = flux.max();
-  if (!(at_first > 0)) return;
+  if (flux.is_zero()) return;  // and not where it is no number
 
   raycast::Ray ray{emission.position, emission.way, afar ? Vec3(Vec3::Zero()) : emission.normal};
   std::optional<std::uint32_t> leaves = light;
@@ -81,13 +81,13 @@ void BidirectionalEstimator::walk_from_light(core::RandomNumbers& numbers, Light
     x.frame = frame_around(front_normal(*hit));
     x.back = x.to_local(-ray.direction);
     x.bsdf = optics_.bsdf(hit->surface);
-    x.carried = flux;
     x.letters = letters;
     x.vertices = vertices;
     const double cosine = std::abs(x.back.z());
+    if (cosine == 0) return;  // G = 0
     x.pdf_area = departure ? departure->pdf_area(x.position, cosine)
                            : pdf_arriving(light, walk.start.pdf_way, walk.start.position, x.position, cosine);
-    if (!(x.pdf_area > 0)) return;
+    x.carried = flux = carried_to(flux, x.pdf_area);
     x.weights = departure ? departure->arrived(x.position, x.pdf_area) : first_weights(walk.start, x, x.place());
     walk.vertices.push_back(x);
     if (x.bsdf == nullptr) return;
@@ -247,13 +247,14 @@ std::optional<BidirectionalEstimator::EyeVertex> BidirectionalEstimator::arrive(
   z.letters = going.letters;
   z.vertices = going.vertices + 1;
   const double cosine = std::abs(z.back.z());
+  if (cosine == 0) return std::nullopt;  // G = 0
   if (going.camera != nullptr) {
     const auto image = going.camera->film.image_of(z.position, going.camera->lens);
     if (image) z.weights = {going.camera->light_walks / (image->pdf_area * cosine), 0};
     return z;
   }
   const double pdf_area = going.departure.pdf_area(z.position, cosine);
-  if (!(pdf_area > 0)) return std::nullopt;
+  z.carried = carried_to(z.carried, pdf_area);
   z.weights = going.departure.arrived(z.position, pdf_area);
   return z;
 }
@@ -265,9 +266,11 @@ Spectrum BidirectionalEstimator::emitted(const Going& going, std::uint32_t light
   const Vec3& way = going.ray.direction;
   const Spectrum radiance = lights_[light].radiance(position, -way);
   if (radiance.is_zero() || going.camera != nullptr) return radiance;
-  const double pdf_area = going.departure.pdf_area(position, std::abs(normal.dot(way)));
-  if (!(pdf_area > 0)) return Spectrum::zero();
-  return radiance * weight(of_others(going, going.departure.arrived(position, pdf_area), light, position, normal));
+  const double cosine = std::abs(normal.dot(way));
+  if (cosine == 0) return Spectrum::zero();  // G = 0
+  const double pdf_area = going.departure.pdf_area(position, cosine);
+  return carried_to(radiance, pdf_area) *
+         weight(of_others(going, going.departure.arrived(position, pdf_area), light, position, normal));
 }
 
 Spectrum BidirectionalEstimator::from_afar(const Going& going, std::uint32_t light) const {
@@ -323,7 +326,10 @@ Spectrum BidirectionalEstimator::joined(const LightVertex& y, const EyeVertex& z
   if (!PathClasses::joined(paths_.after(y.letters, letter_of(*y.bsdf)), with_letter(z))) return Spectrum::zero();
   const Vec3 between = z.position - y.position;
   const double square = between.squaredNorm();
-  if (!(square > 0)) return Spectrum::zero();
+  if (!(square > 0)) {  // 1 / r² is no number; but places of one plane send each other nothing, however close
+    const bool of_one_plane = y.frame.n.cross(z.frame.n).squaredNorm() < 1e-20;
+    return of_one_plane ? Spectrum::zero() : no_number();
+  }
   const Vec3 way = between / std::sqrt(square), from_y = y.to_local(way), from_z = z.to_local(-way);
   const Spectrum f_y = y.bsdf->f(y.back, from_y);
   if (f_y.is_zero()) return f_y;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "core/format.h"
 #include "montecarlo/bidirectional/bidirectional_film.h"
@@ -33,7 +34,8 @@ struct Sensor {
 
 class Joined final : public SampledMeasurements {
  public:
-  explicit Joined(const BidirectionalEstimator& walks) : walks_(walks) {}
+  Joined(const BidirectionalEstimator& walks, const measure::PathClasses& paths)
+      : walks_(walks), rare_(montecarlo::rare_light(walks.scene(), paths)) {}
   void add(const measure::Measurement& asked) { sensors_.emplace_back(asked); }
 
   const scene::Scene& scene() const override { return walks_.scene(); }
@@ -42,6 +44,10 @@ class Joined final : public SampledMeasurements {
   std::size_t size() const override { return sensors_.size(); }
   double scale(std::size_t m) const override { return sensors_[m].scale; }
   Spectrum largest_score() const override { return walks_.largest_score(); }
+  /// Patches are met by the light's walk too.
+  const RareLight* rare_light(std::size_t m) const override {
+    return rare_ && sensors_[m].place.pdf_area() == 0 ? &*rare_ : nullptr;
+  }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
     LightWalk light;
@@ -68,6 +74,7 @@ class Joined final : public SampledMeasurements {
   }
 
   const BidirectionalEstimator& walks_;
+  std::optional<RareLight> rare_;
   std::vector<Sensor> sensors_;
 };
 
@@ -153,7 +160,7 @@ void answer_film(const BidirectionalEstimator& walks, scene::CameraId camera, co
 /// Light of points needs two places in a row that walks can be joined at, or one before a point or pixel, or the first;
 /// patches are met by the light's walk itself.
 measure::Capabilities BidirectionalTracer::capabilities() const {
-  const auto finds = measure::PathClasses::of("(A|F).*E|PE|P(D|G).*E|P.*(D|G)(D|G).*E|P.*(D|G)E");
+  const auto finds = measure::PathClasses::of("(A|F).*E|(P|B)(.*(D|G)(D|G).*|.*(D|G)|(D|G).*)?E");
   return {.unbiased = true, .consistent = true, .to_points = finds, .to_pixels = finds};
 }
 
@@ -166,7 +173,7 @@ std::vector<Estimate> BidirectionalTracer::answer(const scene::Scene& scene,
   const BidirectionalEstimator walks(scene, *caster, settings_.paths, settings_.only);
   std::vector<Estimate> estimates(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
   if (walks.dark()) return estimates;
-  Joined joined(walks);
+  Joined joined(walks, settings_.paths);
   std::vector<std::size_t> of;
   for (std::size_t m = 0; m < asked.size(); ++m)
     if (!std::holds_alternative<measure::PixelRadiance>(asked[m])) joined.add(asked[m]), of.push_back(m);

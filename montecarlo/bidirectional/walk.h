@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "measure/path_classes.h"
@@ -41,6 +42,17 @@ struct LightVertex : WalkVertex {
   measure::PathClasses::FromLight letters;  ///< of the walk so far, without what is done here
   double pdf_area;                          ///< with which it was arrived at
 };
+
+inline Spectrum no_number() { return Spectrum(std::numeric_limits<double>::quiet_NaN()); }
+
+/// What a walk carries to a place that it arrives at with this density per area.
+///
+/// f / p where p is 0 is no number, and is made none: it shows in what is found, and is counted there as samples that
+/// are not finite are (SampleReport).  It would be a bug: a walk goes where it has drawn with p > 0 alone.  A walk
+/// within the surface that it meets, |cos| = 0, is another matter, and is left out before: f has the same factor G as
+/// p, so that paths by that place bring nothing, whatever comes before or after.
+/// Test: tests/montecarlo/zero_density.cpp
+inline Spectrum carried_to(const Spectrum& carried, double pdf_area) { return pdf_area > 0 ? carried : no_number(); }
 
 /// A walk from a light: its vertices on surfaces, x_1 first.
 struct LightWalk {

@@ -93,9 +93,9 @@ class ThinPane final : public SmoothBsdf {
     Spectrum R, T;
     set_parts(std::abs(known.z()), R, T);
     if (R.is_zero() && T.is_zero()) return std::nullopt;
-    const double reflects = R.max() / (R.max() + T.max());
-    if (u[0] < reflects) return to(mirrored(known), R / reflects);
-    return through(known, T / (1 - reflects));
+    const double both = R.max() + T.max();
+    if (u[0] < R.max() / both) return to(mirrored(known), R * (both / R.max()));
+    return through(known, T * (both / T.max()));
   }
   void delta_parts(const Vec3& known, Walk, DeltaParts& parts) const override {
     Spectrum R, T;

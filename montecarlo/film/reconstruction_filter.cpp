@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/hemisphere.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -14,6 +15,7 @@ class Box final : public ReconstructionFilter {
   double value(const Vec2& offset) const override { return offset.cwiseAbs().maxCoeff() <= 0.5 ? 1 : 0; }
   double reach() const override { return 0.5; }
   Vec2 sample(double u, double v) const override { return {u - 0.5, v - 0.5}; }
+  Vec2 inverse(const Vec2& offset) const override { return {offset.x() + 0.5, offset.y() + 0.5}; }
 };
 
 /// (1 - |x|) (1 - |y|).
@@ -21,11 +23,14 @@ class Triangle final : public ReconstructionFilter {
  public:
   double value(const Vec2& offset) const override { return tent(offset.x()) * tent(offset.y()); }
   double reach() const override { return 1; }
-  Vec2 sample(double u, double v) const override { return {inverse(u), inverse(v)}; }
+  Vec2 sample(double u, double v) const override { return {offset_of(u), offset_of(v)}; }
+  Vec2 inverse(const Vec2& offset) const override { return {below(offset.x()), below(offset.y())}; }
 
  private:
   static double tent(double x) { return std::max(0.0, 1 - std::abs(x)); }
-  static double inverse(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
+  static double offset_of(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
+  /// int_-1^x of the tent.
+  static double below(double x) { return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x); }
 };
 
 /// exp(-r² / (2 s²)) / (2 pi s² (1 - q)) within r <= 2, s = 1/2 and q = exp(-2 / s²): rings are drawn by the inverse of
@@ -40,6 +45,9 @@ class Gaussian final : public ReconstructionFilter {
   Vec2 sample(double u, double v) const override {
     const double r = std::sqrt(-2 * s2 * std::log1p(-u * within_));
     return {r * std::cos(2 * pi * v), r * std::sin(2 * pi * v)};
+  }
+  Vec2 inverse(const Vec2& offset) const override {
+    return {-std::expm1(-offset.squaredNorm() / (2 * s2)) / within_, core::turns_about_z({offset.x(), offset.y(), 0})};
   }
 
  private:
@@ -60,13 +68,20 @@ class Mitchell final : public ReconstructionFilter {
   double reach() const override { return 2; }
   double negative() const override { return 2 * inner_ * outer_; }
   Vec2 sample(double u, double v) const override {
-    const double both_inner = inner_ * inner_ / (inner_ * inner_ + outer_ * outer_);
-    if (u < both_inner) return {inner(u / both_inner), inner(v)};
-    return {outer((u - both_inner) / (1 - both_inner)), outer(v)};
+    if (u < both_inner_) return {inner(u / both_inner_), inner(v)};
+    return {outer((u - both_inner_) / (1 - both_inner_)), outer(v)};
   }
   Vec2 sample_negative(double u, double v) const override {
     if (u < 0.5) return {inner(2 * u), outer(v)};
     return {outer(2 * u - 1), inner(v)};
+  }
+  Vec2 inverse(const Vec2& offset) const override {
+    const Vec2 u = factors_inverse(offset);
+    return {is_inner(offset.x()) ? both_inner_ * u.x() : both_inner_ + (1 - both_inner_) * u.x(), u.y()};
+  }
+  Vec2 inverse_negative(const Vec2& offset) const override {
+    const Vec2 u = factors_inverse(offset);
+    return {is_inner(offset.x()) ? u.x() / 2 : 0.5 + u.x() / 2, u.y()};
   }
 
  private:
@@ -84,7 +99,7 @@ class Mitchell final : public ReconstructionFilter {
   }
   /// x in [low, high], where m keeps its sign, with |int_low^x m| = part |int_low^high m|: Newton's steps, where they
   /// stay within what is left by halving.
-  static double inverse(double part, double low, double high) {
+  static double reached(double part, double low, double high) {
     const double from = integral(low), all = integral(high) - from, sign = all < 0 ? -1 : 1;
     double x = low + part * (high - low);
     for (int step = 0; step < 60; ++step) {
@@ -99,12 +114,25 @@ class Mitchell final : public ReconstructionFilter {
   }
   static double on_a_side(double u, double low, double high) {
     const double part = 2 * u - 1;
-    return std::copysign(inverse(std::abs(part), low, high), part);
+    return std::copysign(reached(std::abs(part), low, high), part);
+  }
+  static double on_a_side_inverse(double x, double low, double high) {
+    const double part = (integral(std::abs(x)) - integral(low)) / (integral(high) - integral(low));
+    return 0.5 + 0.5 * std::copysign(part, x);
   }
   static double inner(double u) { return on_a_side(u, 0, zero); }
   static double outer(double u) { return on_a_side(u, zero, 2); }
+  static bool is_inner(double x) { return std::abs(x) < zero; }
+  /// The numbers that each factor is drawn by.
+  static Vec2 factors_inverse(const Vec2& offset) {
+    const auto of = [](double x) {
+      return is_inner(x) ? on_a_side_inverse(x, 0, zero) : on_a_side_inverse(x, zero, 2);
+    };
+    return {of(offset.x()), of(offset.y())};
+  }
 
   double inner_ = 2 * integral(zero), outer_ = 2 * (integral(zero) - integral(2));  ///< a, b
+  double both_inner_ = inner_ * inner_ / (inner_ * inner_ + outer_ * outer_);       ///< of int h+
 };
 
 template <class F>
@@ -115,6 +143,10 @@ std::unique_ptr<ReconstructionFilter> make() {
 }  // namespace
 
 Vec2 ReconstructionFilter::sample_negative(double, double) const {
+  throw core::PreconditionError("this filter is not negative anywhere");
+}
+
+Vec2 ReconstructionFilter::inverse_negative(const Vec2&) const {
   throw core::PreconditionError("this filter is not negative anywhere");
 }
 

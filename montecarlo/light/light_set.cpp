@@ -126,19 +126,21 @@ Spectrum LightSet::flux() const {
 }
 
 void LightSet::set_largest() {
-  Spectrum nearby, afar;
+  Spectrum nearby, afar, rays_afar;
   for (std::uint32_t l = 0; l < size(); ++l) {
     const LargestFind find = lights_[l]->largest_find(0.1 * radius_);
     const double p = l < nearby_ ? of_group_ * share_[l] : of_group_;
     Spectrum least;
     for (int c = 0; c < Spectrum::capacity; ++c)
       least[c] = p > 0 ? std::min(find.pi_radiance[c], find.arriving[c] / p) : 0;
+    const Spectrum by_ray = lights_[l]->is_delta() ? Spectrum::zero() : find.pi_radiance;
     if (l < nearby_)
-      nearby = max(nearby, least);
+      nearby = max(nearby, least), brightest_ = max(brightest_, by_ray);
     else
-      afar += least;  // a ray that escapes sees them all
+      afar += least, rays_afar += by_ray;  // a ray that escapes sees them all
   }
   largest_ = max(nearby, afar);
+  brightest_ = max(brightest_, rays_afar);
 }
 
 }  // namespace interflect::montecarlo

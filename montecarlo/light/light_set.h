@@ -60,6 +60,8 @@ class LightSet {
   /// An irradiance that one sample can find at most by one technique, except beside points of light: of those it is what
   /// they give at a tenth of the scene's radius, over the probability of their pick by power.
   const Spectrum& largest_find() const { return largest_; }
+  /// pi L of the brightest that a ray can meet: an irradiance that one sample can find by a mirror.
+  const Spectrum& brightest() const { return brightest_; }
 
  private:
   static constexpr std::uint32_t none = ~0u;
@@ -78,7 +80,7 @@ class LightSet {
   Balls balls_;
   Vec3 centre_ = Vec3::Zero();
   double radius_ = 0;
-  Spectrum largest_;
+  Spectrum largest_, brightest_;
 };
 
 }  // namespace interflect::montecarlo

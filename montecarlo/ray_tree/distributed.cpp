@@ -207,7 +207,7 @@ measure::Capabilities Distributed::capabilities() const {
           .consistent = true,
           .to_patches = direct,
           .to_points = direct,
-          .to_pixels = measure::PathClasses::of("(A|F)(D|G)?(S|G)*E|PE|P(D|G)(S|G)*E")};
+          .to_pixels = measure::PathClasses::of("(A|F)(D|G)?(S|G)*E|(P|B)((D|G)(S|G)*)?E")};
 }
 
 std::vector<Estimate> Distributed::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,

@@ -279,7 +279,7 @@ Estimate answered(Quadrature& quadrature, const scene::Scene& scene, const Spect
 measure::Capabilities Whitted::capabilities() const {
   const auto direct = measure::PathClasses::of("LE");
   return {.unbiased = false,
-          .consistent = true,
+          .consistent = false,  // least_weight and the most points of a lamp stay, whatever the target
           .to_patches = direct,
           .to_points = direct,
           .to_pixels = measure::PathClasses::of("L(D|G)?S*E")};

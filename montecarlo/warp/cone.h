@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/hemisphere.h"
@@ -22,17 +21,11 @@ inline Vec3 uniform_cone(double k, double u, double v) {
   return {r * cosine, r * sine, 1 - below};
 }
 
-/// Turns of a direction about z, 0 <= t < 1.
-inline double turns_about_z(const Vec3& way) {
-  const double turns = std::atan2(way.y(), way.x()) / (2 * pi);
-  return turns < 0 ? std::min(turns + 1, 1 - 0x1p-53) : turns;
-}
-
 /// (u, v) of a direction.
 inline Vec2 uniform_cone_inverse(double k, const Vec3& way) {
   const double sine2 = way.x() * way.x() + way.y() * way.y();
   const double below = way.z() > 0 ? sine2 / (1 + way.z()) : 1 - way.z();
-  return {below / k, turns_about_z(way)};
+  return {below / k, core::turns_about_z(way)};
 }
 
 }  // namespace interflect::montecarlo

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/format.h"
+#include "results/image_file.h"
 #include "tests/apps/program.h"
+#include "validation/statistics.h"
 
 // The command `compare`, as a user has it.
 namespace interflect::test {
@@ -31,6 +33,8 @@ constexpr const char* bulb_and_mirror = R"({
   "cameras": [ { "name": "c", "eye": [1.5, 0.5, 0.9], "target": [0.5, 0.5, 0], "fov_y_deg": 60, "size": [4, 4] } ]
 })";
 
+constexpr const char* few_samples = "64";  ///< a pixel
+
 std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream lines(csv);
@@ -52,7 +56,8 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
               contains(outcome.out, "all agree"))
       << outcome.out;
   for (const char* name : {"compare.csv", "compare.json", "path.png", "path.exr", "light.png", "bidirectional.png",
-                           "compared_light_path.png", "compared_bidirectional_path.png"})
+                           "compared_light_path.png", "compared_light_path.exr", "compared_bidirectional_path.png",
+                           "compared_bidirectional_light.exr"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
   const json said = json::parse(read_file(folder / "out/compare.json"));
   EXPECT_TRUE(said.at("agree"));
@@ -66,6 +71,9 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
     for (const json& each : kind.at("integrators")) EXPECT_EQ(each.at("samples_not_finite"), 0);
     for (const json& each : kind.at("integrators")) EXPECT_GT(each.at("efficiency"), 0);
   }
+  for (const json& each : said.at("drawn")) EXPECT_TRUE(each.at("missed") == "" && each.at("complete")) << each;
+  ASSERT_EQ(said.at("differences").size(), 3u);
+  for (const json& each : said.at("differences")) EXPECT_EQ(each.at("samples"), 2) << each;
 }
 
 // In the next run's folder nothing looks like its own that is not; what another command drew there is nobody else's.
@@ -82,13 +90,18 @@ TEST(Compare, removes_the_pictures_of_the_comparison_before_and_no_others) {
   compare("path,light");
   EXPECT_TRUE(there("path.exr") && there("path.png") && there("light.exr") && there("compared_light_path.png"));
   json said = json::parse(read_file(folder / "out/compare.json"));
-  EXPECT_EQ(said.at("pictures"), json({"path.exr", "path.png", "light.exr", "light.png", "compared_light_path.png"}));
-  said.at("pictures").push_back("notes.txt");  // by someone else's hand
+  EXPECT_EQ(said.at("pictures"), json({"path.exr", "path.png", "light.exr", "light.png", "compared_light_path.png",
+                                       "compared_light_path.exr"}));
+  for (const char* name : {"notes.txt", "light_but_ASE.png", "light_but_all.png"})  // by someone else's hand
+    said.at("pictures").push_back(name);
+  for (const char* name : {"out/light_but_ASE.png", "out/light_but_all.png"}) folder.write(name, "mine");
   folder.write("out/compare.json", said.dump());
   compare("path");
   EXPECT_TRUE(there("path.exr") && there("path.png"));
-  EXPECT_FALSE(there("light.exr") || there("light.png") || there("compared_light_path.png"));
-  for (const char* name : {"out/controlled.png", "out/distributed.exr", "out/notes.txt"})
+  for (const char* name :
+       {"light.exr", "light.png", "light_but_ASE.png", "compared_light_path.png", "compared_light_path.exr"})
+    EXPECT_FALSE(there(name)) << name;
+  for (const char* name : {"out/controlled.png", "out/distributed.exr", "out/notes.txt", "out/light_but_all.png"})
     EXPECT_EQ(read_file(folder / name), "mine") << name;
 }
 
@@ -106,6 +119,89 @@ TEST(Compare, compares_on_the_paths_that_both_find) {
     EXPECT_FALSE(kind.at("pairs").at(0).at("mean_z_judged"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "path.png"));
+}
+
+core::Image picture_of(const std::string& scene, const std::string& integrator, const std::string& paths,
+                       const std::string& file) {
+  const Outcome outcome = interflect(
+      {"trace", scene, "--integrator", integrator, "--paths", paths, "--spp", few_samples, "-o", file, "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return results::read_exr(file);
+}
+
+// Path tracing misses what the bulb lights by way of the mirror, light tracing what is seen in the mirror: each draws
+// what it finds, and what differs is that of pictures without either.
+TEST(Compare, draws_parts_under_names_of_their_own_and_what_differs_on_what_both_find) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.json", bulb_and_mirror);
+  const Outcome outcome = interflect({"compare", scene, "--integrators", "path,light", "--target", "20%",
+                                      "--replications", "0", "--spp", few_samples, "-o", folder / "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "light_but_PDSE.png: all that light finds, not such paths as PDSE")) << outcome.out;
+  const json said = json::parse(read_file(folder / "out/compare.json"));
+  EXPECT_EQ(said.at("pictures"), json({"path_but_PSDE.exr", "path_but_PSDE.png", "light_but_PDSE.exr",
+                                       "light_but_PDSE.png", "compared_light_path.png", "compared_light_path.exr"}));
+  for (const json& file : said.at("pictures"))
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / file.get<std::string>())) << file;
+  EXPECT_EQ(said.at("drawn").at(0).at("missed"), "PSDE");
+  EXPECT_EQ(said.at("differences").at(0).at("missed"), "PDSE, PSDE");
+
+  const core::Image whole = picture_of(scene, "light", "AE|L.*(D|G)E", folder / "light.exr");
+  EXPECT_EQ(results::read_exr(folder / "out/light_but_PDSE.exr").data, whole.data);
+  const core::Image light = picture_of(scene, "light", "PD(.*D)?E", folder / "light.exr"),
+                    path = picture_of(scene, "path", "PD(.*D)?E", folder / "path.exr"),
+                    differ = results::read_exr(folder / "out/compared_light_path.exr");
+  ASSERT_EQ(differ.channels, (std::vector<std::string>{"y", "y.error", "y.z"}));
+  const double z_max = validation::sidak_z_max(.01, 4 * 4);
+  int lit = 0;
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x) {
+      const double between = double{light.at(x, y, 0)} - double{path.at(x, y, 0)},
+                   error = std::hypot(light.at(x, y, 1), path.at(x, y, 1));
+      EXPECT_FLOAT_EQ(differ.at(x, y, 0), static_cast<float>(between));
+      EXPECT_FLOAT_EQ(differ.at(x, y, 1), static_cast<float>(error));
+      EXPECT_LT(std::abs(differ.at(x, y, 2)), z_max) << x << ", " << y;
+      lit += path.at(x, y, 0) > 0;
+    }
+  EXPECT_GT(lit, 0);
+}
+
+// A stop while one is drawn once more, for the difference alone: the pictures are there, and what has no difference is
+// told.
+TEST(Compare, says_what_a_stop_leaves_undrawn) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.json", bulb_and_mirror);
+  const auto out = folder.path() / "out";
+  const Outcome outcome = interflect(
+      {"compare", scene, "--integrators", "path,light", "--target", "20%", "--replications", "0", "--spp", "100000",
+       "--threads", "1", "-o", out.string()},
+      {.interrupt_when = [&](const std::string&) { return std::filesystem::exists(out / "light_but_PDSE.png"); }});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "stopped: not every picture was drawn")) << outcome.err;
+  const json said = json::parse(read_file(out / "compare.json"));
+  for (const json& each : said.at("drawn")) EXPECT_EQ(each.at("complete"), true) << each;
+  EXPECT_EQ(said.at("differences").at(0).at("refused"), "stopped before it was drawn");
+  EXPECT_EQ(said.at("pictures").size(), 4u);
+}
+
+// Every ray of a pixel ends at the same lamp: no error, and 1 over its square is no number to be judged by.
+TEST(Compare, has_no_efficiency_where_no_error_is_stated) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("lamp.json", R"({ "format": "interflect/scene/1", "units": "m",
+  "materials": { "lamp": { "type": "diffuse", "reflectance": 0, "exitance": 1 } },
+  "geometry": [ { "polygon": [[0,0,0],[1,0,0],[1,1,0],[0,1,0]], "material": "lamp", "name": "lamp" } ],
+  "cameras": [ { "name": "c", "eye": [0.5, 0.5, 0.5], "target": [0.5, 0.5, 0], "up": [0, 1, 0], "fov_y_deg": 30,
+                 "size": [4, 4] } ] })");
+  const Outcome outcome =
+      interflect({"compare", scene, "--integrators", "path", "--no-pictures", "--json", "-o", folder / "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const json said = json::parse(outcome.out);
+  for (const json& kind : said.at("kinds")) {
+    const json& path = kind.at("integrators").at(0);
+    EXPECT_TRUE(path.at("efficiency").is_null()) << path;
+    EXPECT_EQ(path.at("no_efficiency"), kind.at("measured") == "pixels" ? "no value has an error" : "all values are 0");
+  }
+  EXPECT_FALSE(said.contains("not_finite"));
 }
 
 // In the furnace H = 1 W/m2 everywhere, whatever the area: of each by itself, and of each held against the other.
@@ -210,7 +306,7 @@ TEST(Compare, takes_classes_of_paths_and_says_where_they_are_wrong) {
   EXPECT_EQ(compare({"--paths", "LDE", "--target", "5%", "--quiet"}).status, 0);
   const Outcome wrong = compare({"--paths", "LXE"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_TRUE(contains(wrong.err, "paths 'LXE', at character 2: a letter of LAPFDGSE.()|*+? expected")) << wrong.err;
+  EXPECT_TRUE(contains(wrong.err, "paths 'LXE', at character 2: a letter of LAPFBDGSE.()|*+? expected")) << wrong.err;
   EXPECT_EQ(compare({"--integrators", "path,magic"}).status, 2);
   EXPECT_EQ(compare({"--camera", "no such"}).status, 2);
   EXPECT_EQ(compare({"--target", "0"}).status, 2);

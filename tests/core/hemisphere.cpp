@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "tests/support/family.h"
 
 namespace interflect::core {
 namespace {
@@ -39,7 +40,35 @@ TEST(Hemisphere, many_directions_are_those_of_each) {
   }
 }
 
-// Of the density cos / pi: 1/4 of z is below 1/2, and x² and y² have the mean 1/4, z² 1/2.
+TEST(Hemisphere, directions_go_there_and_back) {
+  RandomNumbers random(4, 0, 0);
+  for (int k = 0; k < 20'000; ++k) {
+    const double u = random.next(), v = random.next();
+    const Vec2 back = cosine_hemisphere_inverse(cosine_hemisphere(u, v));
+    ASSERT_NEAR(back.x(), u, 1e-12);
+    ASSERT_NEAR(back.y(), v, 1e-12);
+  }
+}
+
+// Heron's area; and corners whose coordinates are as large as their distances from each other.
+TEST(Hemisphere, points_of_a_triangle_go_there_and_back) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    const Vec3 a = scale * Vec3(1, 2, 3), b = scale * Vec3(4, 2, 1), c = scale * Vec3(-1, 5, 2);
+    const double p = (b - a).norm(), q = (c - b).norm(), r = (a - c).norm(), s = (p + q + r) / 2;
+    EXPECT_NEAR(triangle_point_pdf_area(a, b, c) * std::sqrt(s * (s - p) * (s - q) * (s - r)), 1, 1e-14);
+    RandomNumbers random(5, 0, 0);
+    for (int k = 0; k < 20'000; ++k) {
+      const double u = random.next(), v = random.next();
+      const Vec2 back = triangle_point_inverse(a, b, c, triangle_point(a, b, c, u, v));
+      ASSERT_NEAR(back.x(), u, 1e-12) << scale;
+      ASSERT_NEAR(back.y(), v, 1e-12) << scale;
+    }
+    EXPECT_EQ(triangle_point_inverse(a, b, c, a), Vec2(0, 0));
+  }
+}
+
+// Of the density cos / pi: 1/4 of z is below 1/2, and x² and y² have the mean 1/4 and the variance 1/16, z² 1/2 and
+// 1/12; x and y 0 and 1/4, z 2/3 and 1/18.
 TEST(Hemisphere, directions_have_the_moments_of_a_cosine) {
   RandomNumbers random(3, 0, 0);
   constexpr int n = 200'000;
@@ -50,9 +79,14 @@ TEST(Hemisphere, directions_have_the_moments_of_a_cosine) {
     low += d.z() < .5;
     squares += d.cwiseAbs2() / n, sum += d / n;
   }
-  EXPECT_NEAR(low / n, .25, 5e-3);
-  EXPECT_LT((squares - Vec3(.25, .25, .5)).cwiseAbs().maxCoeff(), 4e-3);
-  EXPECT_LT((sum - Vec3(0, 0, 2. / 3)).cwiseAbs().maxCoeff(), 6e-3);
+  test::Family family(2 * 7);
+  const auto expect_mean = [&](double found, double mean, double variance) {
+    EXPECT_NEAR(found, mean, family.z() * std::sqrt(variance / n));
+  };
+  expect_mean(low / n, .25, 3. / 16);
+  for (const int axis : {0, 1}) expect_mean(squares[axis], .25, 1. / 16), expect_mean(sum[axis], 0, .25);
+  expect_mean(squares.z(), .5, 1. / 12);
+  expect_mean(sum.z(), 2. / 3, 1. / 18);
 }
 
 }  // namespace

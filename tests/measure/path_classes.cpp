@@ -9,7 +9,7 @@
 namespace interflect::measure {
 namespace {
 
-PathLetter letter(char c) { return static_cast<PathLetter>(std::string("APFDGSE").find(c)); }
+PathLetter letter(char c) { return static_cast<PathLetter>(std::string("APFBDGSE").find(c)); }
 
 /// All words of the letters up to a length.
 std::vector<std::string> words(std::size_t longest) {
@@ -17,14 +17,14 @@ std::vector<std::string> words(std::size_t longest) {
   for (std::size_t begin = 0, length = 0; length < longest; ++length) {
     const std::size_t end = all.size();
     for (; begin < end; ++begin)
-      for (const char c : std::string("APFDGSE")) all.push_back(all[begin] + c);
+      for (const char c : std::string("APFBDGSE")) all.push_back(all[begin] + c);
   }
   return all;
 }
 
 std::regex known(const std::string& expression) {
   std::string written;
-  for (const char c : expression) written += c == 'L' ? "[APF]" : c == '.' ? "[DGS]" : std::string(1, c);
+  for (const char c : expression) written += c == 'L' ? "[APFB]" : c == '.' ? "[DGS]" : std::string(1, c);
   return std::regex(written);
 }
 
@@ -69,7 +69,7 @@ TEST(PathClasses, joins_walks_of_both_ends) {
 }
 
 TEST(PathClasses, shows_one_that_is_missed) {
-  const PathClasses all = PathClasses::all(), path_tracing = PathClasses::of("(A|F).*E|PE|P(D|G).*E");
+  const PathClasses all = PathClasses::all(), path_tracing = PathClasses::of("(A|F).*E|(P|B)((D|G).*)?E");
   EXPECT_EQ((all - path_tracing).shortest(), "PSE");
   EXPECT_EQ((all - PathClasses::of("LD*E")).shortest().size(), 3u);
   EXPECT_TRUE((PathClasses::of("LD?S*E") - all).empty());

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "montecarlo/film/reconstruction_filter.h"
-#include "tests/montecarlo/statistics.h"
+#include "tests/support/family.h"
 
 namespace interflect::montecarlo {
 namespace {
@@ -58,7 +58,7 @@ TEST(ReconstructionFilter, shares_light_out_among_pixels) {
 
 /// Offsets fall into the cells of a grid as often as a density says (chi-squared).
 void expect_density(const std::string& name, double reach, const std::function<double(const Vec2&)>& density,
-                    const std::function<Vec2(double, double)>& sample) {
+                    const std::function<Vec2(double, double)>& sample, test::Family& family) {
   constexpr int cells = 16, samples = 200'000, fine = 32;
   const double cell = 2 * reach / cells;
   std::vector<double> expected(cells * cells), found(cells * cells);
@@ -92,20 +92,37 @@ void expect_density(const std::string& name, double reach, const std::function<d
   if (few > 10) count(few_found, few);
   // Wilson and Hilferty: the cube root of chi² / d is normal, of variance 2 / (9 d).
   const double z = (std::cbrt(chi2 / degrees) - (1 - 2.0 / (9 * degrees))) / std::sqrt(2.0 / (9 * degrees));
-  EXPECT_LT(std::abs(z), test::critical_z(test::alpha, 5)) << name << ' ' << chi2 << " of " << degrees;
+  EXPECT_LT(std::abs(z), family.z()) << name << ' ' << chi2 << " of " << degrees;
 }
 
 TEST(ReconstructionFilter, draws_its_positive_and_its_negative_part) {
+  std::size_t drawn = 0;
+  for (const std::string& name : filter_names()) drawn += make_filter(name)->negative() > 0 ? 2 : 1;
+  test::Family family(2 * drawn);
   for (const std::string& name : filter_names()) {
     const auto filter = make_filter(name);
     const double negative = filter->negative();
     expect_density(
         name, filter->reach(), [&](const Vec2& at) { return std::max(0.0, filter->value(at)) / (1 + negative); },
-        [&](double u, double v) { return filter->sample(u, v); });
+        [&](double u, double v) { return filter->sample(u, v); }, family);
     if (negative == 0) continue;
     expect_density(
         name, filter->reach(), [&](const Vec2& at) { return std::max(0.0, -filter->value(at)) / negative; },
-        [&](double u, double v) { return filter->sample_negative(u, v); });
+        [&](double u, double v) { return filter->sample_negative(u, v); }, family);
+  }
+}
+
+TEST(ReconstructionFilter, goes_from_numbers_to_offsets_and_back) {
+  for (const std::string& name : filter_names()) {
+    const auto filter = make_filter(name);
+    for (std::uint64_t k = 0; k < 20'000; ++k) {
+      core::RandomNumbers numbers(5, 0, k);
+      const double u = numbers.next(), v = numbers.next();
+      ASSERT_LT((filter->inverse(filter->sample(u, v)) - Vec2(u, v)).cwiseAbs().maxCoeff(), 1e-12) << name;
+      if (filter->negative() == 0) continue;
+      ASSERT_LT((filter->inverse_negative(filter->sample_negative(u, v)) - Vec2(u, v)).cwiseAbs().maxCoeff(), 1e-12)
+          << name;
+    }
   }
 }
 

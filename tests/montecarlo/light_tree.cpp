@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "core/moments.h"
 #include "montecarlo/light/light_tree.h"
 #include "montecarlo/light/point.h"
@@ -8,7 +11,6 @@
 #include "montecarlo/light/spot.h"
 #include "tests/montecarlo/light_numbers.h"
 #include "tests/montecarlo/statistics.h"
-#include "tests/support/chi_squared.h"
 #include "tests/support/shapes.h"
 
 // Picks among many lights.
@@ -17,9 +19,6 @@ namespace {
 
 using test::grey;
 using test::numbers_of;
-
-/// Of each chi-squared test of this file, which has fewer than 128.
-constexpr double alpha_of_one = test::alpha / 128;
 
 /// Lights of all kinds with powers 1 to 1e6 in a cube, and some beyond.
 std::vector<std::unique_ptr<Light>> many_lights(int n, double scale) {
@@ -51,16 +50,20 @@ std::vector<std::unique_ptr<Light>> many_lights(int n, double scale) {
 // At a hundred places: probabilities add up to 1, are those that picks tell, bit by bit, and with which picks come; and
 // no light that gives anything there is never picked.
 TEST(LightTree, picks_as_it_says_and_forgets_no_light) {
-  for (const double scale : {1., 1e-6, 1e6}) {
+  const std::array<std::pair<double, std::size_t>, 3> places_at{{{1., 100}, {1e-6, 5}, {1e6, 5}}};
+  std::size_t places_in_all = 0;
+  for (const auto& [scale, places] : places_at) places_in_all += places;
+  test::Family family(test::tails_of_counts * places_in_all);
+  for (const auto& [scale, places] : places_at) {
     const auto lights = many_lights(10'000, scale);
     std::vector<LightExtent> extents;
     for (const auto& light : lights) extents.push_back(light->extent());
     const LightTree tree(extents);
     EXPECT_LE(tree.depth(), 60);
-    core::RandomNumbers places(4, 0, 0);
-    for (int p = 0; p < (scale == 1 ? 100 : 5); ++p) {
-      const Vec3 x = scale * Vec3(12 * test::random_point(places) - Vec3(1, 1, 1));
-      const Place at{x, p % 5 == 0 ? Vec3(Vec3::Zero()) : test::cosine_about(Vec3::UnitZ(), places)};
+    core::RandomNumbers numbers(4, 0, 0);
+    for (std::size_t p = 0; p < places; ++p) {
+      const Vec3 x = scale * Vec3(12 * test::random_point(numbers) - Vec3(1, 1, 1));
+      const Place at{x, p % 5 == 0 ? Vec3(Vec3::Zero()) : test::cosine_about(Vec3::UnitZ(), numbers)};
       std::vector<double> expected(lights.size()), counts(lights.size());
       double sum = 0;
       constexpr int n = 20'000;
@@ -81,7 +84,7 @@ TEST(LightTree, picks_as_it_says_and_forgets_no_light) {
         ++counts[picked.light];
         ASSERT_EQ(picked.probability, tree.probability(picked.light, at));
       }
-      test::expect_as_expected(counts, expected, alpha_of_one, "place " + std::to_string(p));
+      test::expect_as_expected(counts, expected, family, "place " + std::to_string(p));
     }
   }
 }
@@ -108,17 +111,18 @@ TEST(LightTree, finds_each_light_as_bright_as_it_is) {
     ++picks[picked.light];
     found[picked.light].add(score(picked.light, u[1], u[2]) / picked.probability);
   }
-  int looked_at = 0;
+  const auto seldom = [](int count) { return count < 100; };  // too rare to be normal
+  const auto looked_at = picks.size() - static_cast<std::size_t>(std::count_if(picks.begin(), picks.end(), seldom));
+  EXPECT_GT(looked_at, 50u);
+  test::Family family(2 * looked_at);
   for (std::uint32_t l = 0; l < lights.size(); ++l) {
-    if (picks[l] < 100) continue;  // too rare to be normal
+    if (seldom(picks[l])) continue;
     double truth = 0;
     for (int i = 0; i < fine; ++i)
       for (int j = 0; j < fine; ++j) truth += score(l, (i + .5) / fine, (j + .5) / fine) / (fine * fine);
     found[l].merge(core::ScalarMoments(n - found[l].count(), 0, 0));  // all other picks
-    EXPECT_NEAR(found[l].mean(), truth, 5.2 * found[l].standard_error() + 2e-3 * truth) << l;
-    ++looked_at;
+    EXPECT_NEAR(found[l].mean(), truth, family.z() * found[l].standard_error() + 2e-3 * truth) << l;
   }
-  EXPECT_GT(looked_at, 50);
 }
 
 }  // namespace

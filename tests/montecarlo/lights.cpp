@@ -14,7 +14,6 @@
 #include "montecarlo/warp/cone.h"
 #include "tests/montecarlo/light_numbers.h"
 #include "tests/montecarlo/statistics.h"
-#include "tests/support/chi_squared.h"
 
 // Lights by themselves: what they draw, how densely, and what it is worth.  (Picks among many: light_tree.cpp; solid
 // angles: light_warps.cpp; in paths: lit_scenes.cpp.)
@@ -23,9 +22,6 @@ namespace {
 
 using test::grey;
 using test::numbers_of;
-
-/// Of each chi-squared test of this file, which has fewer than 64.
-constexpr double alpha_of_one = test::alpha / 64;
 
 Spectrum colour(double a, double b) {
   Spectrum s;
@@ -161,7 +157,9 @@ std::vector<Named> all_kinds() {
 TEST(Lights, draw_what_arrives_as_they_say) {
   constexpr int n = 500'000, rows = 16, columns = 16, fine = 32;
   std::uint32_t stream = 0;
-  for (const Named& of : all_kinds()) {
+  const std::vector<Named> kinds = all_kinds();
+  test::Family family(test::tails_of_counts * kinds.size());
+  for (const Named& of : kinds) {
     const Frame frame = frame_around(of.axis);
     std::vector<double> counts(rows * columns), expected(rows * columns);
     for (int a = 0; a < rows * fine; ++a)
@@ -195,7 +193,7 @@ TEST(Lights, draw_what_arrives_as_they_say) {
       }
     }
     EXPECT_GT(drawn, 0);
-    test::expect_as_expected(counts, expected, alpha_of_one, of.name);
+    test::expect_as_expected(counts, expected, family, of.name);
   }
 }
 
@@ -223,6 +221,7 @@ TEST(Lights, send_out_as_they_say) {
                    Vec3::UnitZ(),
                    2});
   std::uint32_t stream = 100;
+  test::Family family(2 * kinds.size());
   for (const Named& of : kinds) {
     ++stream;
     constexpr int n = 200'000;
@@ -239,13 +238,15 @@ TEST(Lights, send_out_as_they_say) {
       EXPECT_NEAR(e.weight[0] * e.pdf_area * e.pdf_solid_angle, L * cosine, 1e-9 * L) << of.name;
     }
     const double flux = of.light->flux()[0], noise = std::sqrt(std::max(0., squares / n - sum / n * sum / n) / n);
-    EXPECT_NEAR(sum / n, flux, 4.9 * noise + 1e-9 * flux) << of.name;
+    EXPECT_NEAR(sum / n, flux, family.z() * noise + 1e-9 * flux) << of.name;
   }
 }
 
 // A spot's intensity integrates to its flux in closed form, and ways are drawn in proportion to it.
 TEST(Spots, send_a_flux_of_closed_form) {
-  for (const auto& [beam, field] : {std::pair(.95, .8), std::pair(.5, .5), std::pair(1., 0.), std::pair(.2, -.9)}) {
+  const std::array cosines{std::pair(.95, .8), std::pair(.5, .5), std::pair(1., 0.), std::pair(.2, -.9)};
+  test::Family family(test::tails_of_counts * cosines.size());
+  for (const auto& [beam, field] : cosines) {
     const scene::SpotLight spot{"s", Vec3::Zero(), Vec3::UnitZ(), grey(3), beam, field};
     double sum = 0;
     constexpr int n = 200'000;
@@ -264,7 +265,7 @@ TEST(Spots, send_a_flux_of_closed_form) {
       expected[static_cast<std::size_t>((cosine + 1) / 2 * bins)] +=
           m * light.pdfs_emission({}, way).solid_angle * 4 * pi / n;
     }
-    test::expect_as_expected(counts, expected, alpha_of_one, "spot");
+    test::expect_as_expected(counts, expected, family, "spot");
   }
 }
 
@@ -316,6 +317,7 @@ TEST(LightFromAfar, covers_a_long_thin_scene) {
   lights.emplace_back(std::make_unique<EnvironmentLight>(even, box), pi);
   lights.emplace_back(std::make_unique<SunLight>(scene::Sun{"s", Vec3(.6, 0, -.8), grey(2)}, box), 1.6);
   lights.emplace_back(std::make_unique<SunLight>(scene::Sun{"s", Vec3(.6, 0, -.8), grey(2), 0}, box), 1.6);
+  test::Family family(2 * 2 * lights.size());
   for (const auto& [light, H] : lights) {
     double rim = 0, middle = 0;
     constexpr int n = 4'000'000;
@@ -328,8 +330,8 @@ TEST(LightFromAfar, covers_a_long_thin_scene) {
     }
     // Hits are of one weight for each light but rare: w sqrt(count) / n.
     const double w = light->flux()[0] * (H == pi ? 2 : 1);
-    EXPECT_NEAR(rim, 2 * H, 4.9 * std::sqrt(2 * H * w / n)) << H;
-    EXPECT_NEAR(middle, 98 * H, 4.9 * std::sqrt(98 * H * w / n)) << H;
+    EXPECT_NEAR(rim, 2 * H, family.z() * std::sqrt(2 * H * w / n)) << H;
+    EXPECT_NEAR(middle, 98 * H, family.z() * std::sqrt(98 * H * w / n)) << H;
   }
 }
 

@@ -130,7 +130,8 @@ TEST(Suns, light_floors_also_through_panes) {
     const double H = 7 * std::sqrt(.5);
     std::vector<Question> questions{at_point(Vec3(-1, 0, 1.5), z, H), at_point(Vec3(1, -1, .5), z, H * .9073443298)};
     questions[1].slack = 1e-8 + 3 * radius * radius;  // what passes changes over the disk
-    expect_agreement(scene, questions, {.samples = 20'000}, .03);
+    // What the pane reflects is none of the question: of a sun without an angle it would not be found.
+    expect_agreement(scene, questions, {.samples = 20'000, .paths = measure::PathClasses::of("(F|B)(D|G)*E")}, .03);
   }
 }
 

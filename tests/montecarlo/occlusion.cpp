@@ -1,3 +1,4 @@
+#include "tests/montecarlo/known_rooms.h"
 #include "tests/montecarlo/statistics.h"
 #include "tests/support/shapes.h"
 
@@ -14,35 +15,26 @@ scene::MaterialId material(SceneBuilder& builder, double rho, double E) {
   return builder.add_material(test::diffuse("m", rho, E));
 }
 
-geometry::PlanarPolygon square(double s, double z, bool up) {
-  geometry::Ring ring{Vec3(-s, -s, z), Vec3(s, -s, z), Vec3(s, s, z), Vec3(-s, s, z)};
-  if (!up) std::reverse(ring.begin(), ring.end());
-  return {ring, {}};
+// 2.9, and the same points without a body.
+TEST(PathTracer, finds_the_penumbra_of_a_square_blocker) {
+  test::KnownScene known = test::penumbra_of_a_square();
+  for (test::Question question : std::vector(known.questions)) {
+    if (auto* point = std::get_if<measure::PointIrradiance>(&question.asked)) {
+      point->on.reset();
+      known.questions.push_back(question);
+    }
+  }
+  known.questions.push_back(at_point({0, 0, 3}, -Vec3::UnitZ(), 0));  // behind the source: its back is dark
+  for (const char* intersector : {"embree", "brute"}) {
+    expect_agreement(known.scene, known.questions, {.samples = 20'000, .intersector = intersector}, 0.05);
+  }
 }
 
-// 2.9: square source (half side 1/2) at height 2, square blocker (half side 1/2) at height 1.
-TEST(PathTracer, finds_the_penumbra_of_a_square_blocker) {
-  struct Point {
-    double x, y, F;
-  };
-  for (const char* intersector : {"embree", "brute"}) {
-    SceneBuilder builder({"grey"});
-    builder.add_polygon("source", square(0.5, 2, false), material(builder, 0, 1));
-    builder.add_polygon("blocker", square(0.5, 1, true), material(builder, 0, 0));
-    const auto floor = builder.add_polygon("floor", square(2, 0, true), material(builder, 0, 0));
-    const scene::Scene scene = builder.finish();
-    std::vector<test::Question> questions{whole(scene, "floor", 0.021573468864)};
-    for (const Point& p :
-         {Point{0, 0, 0}, Point{0.5, 0, 0}, Point{0.6, 0, .007557182366}, Point{0.75, 0, .017821902089},
-          Point{1, 0, .029443796377}, Point{1.25, 0, .033623897844}, Point{1.5, 0, .032663265537},
-          Point{2, 0, .020278199912}, Point{1, 1, .029028221206}, Point{.75, .75, .024093099852},
-          Point{1.25, .25, .032909077393}, Point{1.4, 1.4, .020596516308}}) {
-      questions.push_back(at_point({p.x, p.y, 0}, Vec3::UnitZ(), p.F, floor));
-      questions.push_back(at_point({p.x, p.y, 0}, Vec3::UnitZ(), p.F));  // the same point without a body
-    }
-    questions.push_back(at_point({0, 0, 3}, -Vec3::UnitZ(), 0));  // behind the source: its back is dark
-    expect_agreement(scene, questions, {.samples = 20'000, .intersector = intersector}, 0.05);
-  }
+// Each vertex of light tracing is joined to one of twelve points.
+TEST(WalksFromLights, find_the_penumbra_of_a_square_blocker) {
+  const test::KnownScene known = test::penumbra_of_a_square();
+  test::expect_found_by("bidirectional", 20'000, known, 0.05);
+  test::expect_found_by("light", 400'000, known, 0.05);
 }
 
 // 2.11, V6 and V7: parallel unit squares with a thin square half-way.
@@ -50,10 +42,10 @@ TEST(PathTracer, finds_the_form_factor_of_squares_with_an_occluder_between) {
   const geometry::PlanarPolygon quarter{{Vec3(0, 0, 0.5), Vec3(0.5, 0, 0.5), Vec3(0.5, 0.5, 0.5), Vec3(0, 0.5, 0.5)},
                                         {}};
   for (const auto& [occluder, F] :
-       {std::pair{quarter, 0.149868671774}, std::pair{square(0.25, 0.5, true), 0.099506294599}}) {
+       {std::pair{quarter, 0.149868671774}, std::pair{test::level_square(0.25, 0.5, true), 0.099506294599}}) {
     SceneBuilder builder({"grey"});
-    builder.add_polygon("lower", square(0.5, 0, true), material(builder, 0, 1));
-    builder.add_polygon("upper", square(0.5, 1, false), material(builder, 0, 0));
+    builder.add_polygon("lower", test::level_square(0.5, 0, true), material(builder, 0, 1));
+    builder.add_polygon("upper", test::level_square(0.5, 1, false), material(builder, 0, 0));
     builder.add_polygon("occluder", occluder, material(builder, 0, 0));
     const scene::Scene scene = builder.finish();
     expect_agreement(scene, {whole(scene, "upper", F)}, {.samples = 200'000}, 0.01);

@@ -1,8 +1,12 @@
 #include "montecarlo/sample_report.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "montecarlo/integrators.h"
 #include "montecarlo/render.h"
 #include "tests/montecarlo/rooms.h"
+#include "tests/montecarlo/solution_rooms.h"
 #include "tests/montecarlo/statistics.h"
 
 // What integrators tell of samples that are no numbers, or of which one is much.
@@ -71,16 +75,22 @@ class EveryReport : public testing::TestWithParam<std::string> {
     IntegratorSettings settings;
     settings.samples = samples;
     settings.report = &report;
-    const measure::Capabilities finds = make_integrator(GetParam(), {})->capabilities();
-    for (const measure::Measurement& each : asked) settings.paths = settings.paths & finds.paths_to(each);
+    settings.paths = test::paths_found(GetParam(), asked);
+    settings.solution = says();
     return settings;
   }
   Rendering picture(const scene::Scene& scene, const measure::PathClasses& paths) const {
     RenderSettings settings;
     settings.integrator = GetParam(), settings.samples = 16, settings.paths = paths;
+    settings.solution = says();
     core::LocalRun run(1, 2);
     return render(scene, {0}, settings, run, *raycast::make_ray_caster("embree", scene));
   }
+  bool is_two_pass() const { return GetParam() == "two-pass"; }
+  /// Of integrators that need a solution: what it says of all surfaces.
+  measure::SurfaceSolution says() const { return test::says_everywhere(Spectrum(reflected_)); }
+
+  double reflected_ = .5;
 };
 
 /// A point light of 1e305 W/sr 1 mm above a small floor: more than a double holds, wherever it is found.
@@ -93,8 +103,21 @@ scene::Scene beyond_numbers() {
   return builder.finish();
 }
 
+/// The same floor in a room that glows.
+scene::Scene seen_floor() {
+  SceneBuilder builder({"grey"});
+  builder.add_box("room", {Vec3(-1, -1, -1), Vec3(1, 1, 1)}, builder.add_material(test::diffuse("w", .5, 1)),
+                  SceneBuilder::Facing::inward);
+  builder.add_polygon("floor", test::parallelogram(Vec3(-.01, -.01, 0), .02 * x, .02 * y),
+                      builder.add_material(test::diffuse("f", .5, 0)));
+  builder.scene().cameras.push_back({"c", .02 * z, Vec3::Zero(), y, 20, 4, 3});
+  return builder.finish();
+}
+
+/// Of two passes, which do not know such lights, the solution is no number.
 TEST_P(EveryReport, counts_samples_that_are_no_numbers) {
-  const scene::Scene scene = beyond_numbers();
+  if (is_two_pass()) reflected_ = std::numeric_limits<double>::infinity();
+  const scene::Scene scene = is_two_pass() ? seen_floor() : beyond_numbers();
   const std::vector<measure::Measurement> asked{
       measure::PatchIrradiance{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)[0]},
       measure::PointIrradiance{Vec3(0, 0, 1e-4), z, {}}};
@@ -107,7 +130,7 @@ TEST_P(EveryReport, counts_samples_that_are_no_numbers) {
     EXPECT_TRUE(std::isinf(each.error_bound[0]));
     EXPECT_TRUE(std::isfinite(each.value[0]));
   }
-  const Rendering seen = picture(scene, measure::PathClasses::of("PDE"));
+  const Rendering seen = picture(scene, is_two_pass() ? measure::PathClasses::all() : measure::PathClasses::of("PDE"));
   EXPECT_GE(seen.report.not_finite, 1u);
   int unknown = 0;
   for (std::size_t p = 0; p < seen.radiance.data.size(); ++p) {
@@ -117,9 +140,15 @@ TEST_P(EveryReport, counts_samples_that_are_no_numbers) {
   EXPECT_GE(unknown, 1);
 }
 
-// In rooms of all lights and all materials, at patches, points and pixels.
+/// In rooms of all lights and all materials, or those that it knows.
+std::vector<scene::Scene> good_scenes(bool two_pass) {
+  return two_pass ? std::vector{test::furnished(1), test::known_to_two_passes()}
+                  : std::vector{test::lit_by_all(), test::shiny()};
+}
+
+// At patches, points and pixels.
 TEST_P(EveryReport, has_no_such_samples_of_good_scenes) {
-  for (scene::Scene scene : {test::lit_by_all(), test::shiny()}) {
+  for (scene::Scene scene : good_scenes(is_two_pass())) {
     if (scene.cameras.empty())
       scene.cameras.push_back(
           {"c", Vec3(.2, .9, .5), Vec3(2.2, 1, .35), z, scene::Projection(scene::Pinhole{80}), 3, 3});
@@ -137,8 +166,13 @@ TEST_P(EveryReport, has_no_such_samples_of_good_scenes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryReport,
-                         testing::Values("path", "bidirectional", "light", "distributed", "whitted"),
-                         [](const auto& of) { return of.param; });
+                         testing::Values("path", "bidirectional", "light", "distributed", "whitted", "two-pass",
+                                         "controlled"),
+                         [](const auto& of) {
+                           std::string name = of.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 // A small lamp in a mirror: paths from the floor meet it one time in 10 000 or so, and each find is much; paths from the
 // lamp all do.

@@ -13,6 +13,20 @@ TEST(Statistics, the_critical_z_is_that_of_sidak) {
   EXPECT_NEAR(critical_z(0.05, 1), 1.95996, 1e-5);
 }
 
+// Alpha is divided among no more and no less than what is compared.
+TEST(Statistics, a_family_is_as_large_as_it_was_told) {
+  Family family(4, 4e-2);
+  EXPECT_NEAR(family.z(), 2.3263, 1e-4);  // one tail of 1 %
+  EXPECT_EQ(family.level(2), 1e-2);
+  for (const std::size_t tails : {1, 3})
+    EXPECT_NONFATAL_FAILURE(
+        {
+          Family other(2);
+          other.level(tails);
+        },
+        "alpha was divided");
+}
+
 // The test's own test: a furnace whose truth is told 2 % wrong is found out.
 TEST(Statistics, agreement_with_a_wrong_truth_is_not_found) {
   static scene::Scene scene;

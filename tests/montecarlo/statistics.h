@@ -10,18 +10,10 @@
 #include "measure/surface_measurements.h"
 #include "montecarlo/path_tracer.h"
 #include "scene/scene.h"
+#include "tests/support/family.h"
 
 /// Path-traced estimates against exact numbers.
 namespace interflect::test {
-
-/// The largest |z| that `comparisons` two-sided normal tests may show under one family alpha (Sidak): each has
-/// 1 - (1 - alpha)^(1/M).
-inline double critical_z(double alpha, std::size_t comparisons) {
-  const double each = -std::expm1(std::log1p(-alpha) / static_cast<double>(comparisons));
-  double low = 0, high = 40;
-  for (int i = 0; i < 100; ++i) (std::erfc((low + high) / 2 / std::sqrt(2.0)) > each ? low : high) = (low + high) / 2;
-  return low;
-}
 
 /// What is asked with what is true, up to `slack` (a bound derived where the truth is not exact).
 struct Question {
@@ -36,9 +28,6 @@ inline Spectrum grey(double value) {
   s[0] = value;
   return s;
 }
-
-/// Family alpha of every test here; the seed is fixed, so a test either always passes or never.
-inline constexpr double alpha = 1e-3;
 
 /// Every channel of every answer within the critical number of its own standard errors.  A standard error above
 /// `largest_error` (relative to the truth) would prove nothing, and fails.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "montecarlo/alias_table.h"
+#include "tests/support/family.h"
 #include "tests/support/shapes.h"
 
 namespace interflect::montecarlo {
@@ -10,12 +11,8 @@ namespace {
 
 constexpr double almost_one = 1 - 0x1p-53;
 
-/// Upper quantile of chi-squared by Wilson and Hilferty's cube, z = 4.9 (one-sided 5e-7); to about 1 % for 15 cells or
-/// more.
-double chi2_limit(int degrees) {
-  const double a = 2.0 / (9 * degrees);
-  return degrees * std::pow(1 - a + 4.9 * std::sqrt(a), 3);
-}
+/// Of a test whose one comparison it is.
+double chi2_limit(int degrees) { return test::chi_squared_limit(degrees, test::alpha); }
 
 double chi2(const std::vector<int>& counts, double expected) {
   double sum = 0;
@@ -106,6 +103,37 @@ TEST(Warps, points_of_a_quad_are_uniform_by_area) {
     for (double v : {0.0, almost_one}) EXPECT_TRUE(patch_point(patch, u, v).allFinite());
 }
 
+/// pdf_area |dp/du x dp/dv| by central differences, which is 1 of a pdf that is right.
+template <class Warp>
+double density_times_stretch(const Warp& warp, double u, double v, double pdf_area) {
+  constexpr double h = 1e-5;
+  const Vec3 by_u = warp(u + h, v) - warp(u - h, v), by_v = warp(u, v + h) - warp(u, v - h);
+  return pdf_area * by_u.cross(by_v).norm() / (4 * h * h);
+}
+
+// Corners whose coordinates are as large as their distances from each other.
+TEST(Warps, of_patches_go_there_and_back_with_the_density_that_is_said) {
+  const std::array<Vec3, 4> trapezium{Vec3(1, 2, 3), Vec3(4, 2, 3), Vec3(2, 3, 3.5), Vec3(1, 3, 3.5)};
+  const std::array<Vec3, 3> triangle{Vec3(1, 2, 3), Vec3(4, 2, 1), Vec3(-1, 5, 2)};
+  for (const double scale : {1e-6, 1., 1e6})
+    for (const std::span<const Vec3> corners : {std::span<const Vec3>(trapezium), std::span<const Vec3>(triangle)}) {
+      std::vector<Vec3> ring;
+      for (const Vec3& corner : corners) ring.emplace_back(scale * corner);
+      const auto patch = scene::make_patch({}, scene::Side::front, ring);
+      const double part = first_triangle_share(patch);
+      for (std::uint64_t k = 0; k < 20'000; ++k) {
+        core::RandomNumbers numbers(6, 0, k);
+        const double u = numbers.next(), v = numbers.next();
+        const Vec2 back = patch_point_inverse(patch, patch_point(patch, u, v));
+        ASSERT_NEAR(back.x(), u, 1e-12) << corners.size() << " corners, scale " << scale;
+        ASSERT_NEAR(back.y(), v, 1e-12) << corners.size() << " corners, scale " << scale;
+        if (k % 64 != 0 || std::min(u, std::abs(u - part)) < 1e-2) continue;  // sqrt(u) bends too much at a
+        const auto warp = [&](double a, double b) { return patch_point(patch, a, b); };
+        EXPECT_NEAR(density_times_stretch(warp, u, v, patch_point_pdf_area(patch)), 1, 1e-5);
+      }
+    }
+}
+
 TEST(AliasTable, picks_in_proportion_to_the_weights) {
   const std::vector<double> weights{1, 1e-3, 5, 0.5, 3, 0.5, 1e6 * 1e-6, 2};
   const AliasTable table(weights);
@@ -115,9 +143,10 @@ TEST(AliasTable, picks_in_proportion_to_the_weights) {
   constexpr int n = 1'000'000;
   std::vector<int> counts(weights.size());
   for (int i = 0; i < n; ++i) ++counts[table.pick(core::RandomNumbers(5, 0, static_cast<std::uint64_t>(i)).next())];
+  test::Family family(2 * weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double p = weights[i] / sum;  // binomial: 4.9 standard deviations, two-sided 1e-6 each
-    EXPECT_NEAR(counts[i], n * p, 4.9 * std::sqrt(n * p * (1 - p))) << i;
+    const double p = weights[i] / sum;  // binomial
+    EXPECT_NEAR(counts[i], n * p, family.z() * std::sqrt(n * p * (1 - p))) << i;
   }
   EXPECT_LT(table.pick(almost_one), weights.size());
 }

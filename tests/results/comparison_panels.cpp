@@ -71,6 +71,21 @@ TEST(ComparisonPanels, what_noise_may_explain_stays_white) {
       white);
 }
 
+TEST(ComparisonPanels, what_neighbours_err_by_together_is_not_averaged) {
+  // A block errs by as much as its pixels: 2 is more than three errors below s = 2/3, and beside
+  // a noise of 2.4 / 6 in the mean below sqrt(4/9 - .16) = .533.
+  const auto difference = [](float shared, float noise) {
+    const core::Image of_all = even(shared, 0);
+    return colour_at(comparison_panels(two_bands(), even(41, 1), even(39, 1), even(noise, 0), 0.1, &of_all).difference,
+                     0, 0);
+  };
+  const Colour white = colour_of(ColourMap::blue_white_red, 0.5), half = colour_of(ColourMap::blue_white_red, 0.75);
+  EXPECT_EQ(difference(.66F, 0), half);
+  EXPECT_EQ(difference(.67F, 0), white);
+  EXPECT_EQ(difference(.53F, 2.4F), half);
+  EXPECT_EQ(difference(.54F, 2.4F), white);
+}
+
 TEST(ComparisonPanels, both_pictures_have_the_exposure_of_the_traced_one) {
   const ComparisonPanels panels = comparison_panels(two_bands(), even(0.5F, 0), even(1, 0), even(0, 0), 0.1);
   EXPECT_FLOAT_EQ(panels.traced.at(0, 0, 0), 1);

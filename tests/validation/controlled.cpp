@@ -266,7 +266,7 @@ TEST(Controlled, has_less_noise_by_what_the_solution_knows) {
   EXPECT_GT(at([](std::uint32_t cell) { return cell % 2 == 0 ? 4.0 : .1; }), 1.15 * controlled);
 }
 
-// Of 200 seeds, 95 % intervals hold the truth (docs/truths.md, V1) in 181 .. 197 with a probability of .99 each, by a
+// Of 200 seeds, 95 % intervals hold the truth (docs/truths.md, V1) in 181 .. 197 with a probability of .995 each, by a
 // solution that is wrong everywhere.
 TEST(Controlled, holds_the_truth_as_often_as_it_says) {
   const scene::Scene scene = test::facing_squares();

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "measure/surface_measurements.h"
+#include "tests/montecarlo/rooms.h"
+
+/// A sun beside a mirror, H = 1 across its rays: a floor gets .8 from it and .8 x .8 by the mirror.
+namespace interflect::test {
+
+inline constexpr double under_sun_and_mirror = .8 + .8 * .8;
+
+inline scene::Scene sun_and_mirror(double scale, double angular_radius) {
+  scene::SceneBuilder builder({"grey"});
+  scene::Material mirror;
+  mirror.name = "mirror", mirror.finish = scene::Mirror{grey(.8)};
+  const Vec3 x = scale * Vec3::UnitX(), y = scale * Vec3::UnitY(), z = scale * Vec3::UnitZ();
+  builder.add_polygon("floor", parallelogram(Vec3::Zero(), x, y), builder.add_material(diffuse("grey", .5, 0)));
+  builder.add_polygon("wall", parallelogram(x, 2 * z, y), builder.add_material(mirror));
+  builder.scene().lights.suns.push_back(
+      {.name = "sun", .direction = Vec3(.6, 0, -.8), .irradiance = grey(1), .angular_radius = angular_radius});
+  builder.scene().cameras.push_back({"c", .2 * x + .5 * y + 1.2 * z, .5 * x + .5 * y, Vec3::UnitX(), 20, 1, 1});
+  return builder.finish();
+}
+
+struct UnderSunAndMirror {
+  measure::Measurement flux, point, pixel;
+};
+inline UnderSunAndMirror asked_of_sun_and_mirror(const scene::Scene& scene, double scale) {
+  return {measure::Flux{measure::patches_of(scene, surface_named(scene, "floor"), scene::Side::front)},
+          measure::PointIrradiance{scale * Vec3(.5, .5, .01), Vec3::UnitZ(), {}}, measure::PixelRadiance{{0}, 0, 0}};
+}
+
+}  // namespace interflect::test

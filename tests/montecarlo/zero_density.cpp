@@ -1,0 +1,142 @@
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "core/random.h"
+#include "montecarlo/bidirectional/walk.h"
+#include "montecarlo/bsdf/lambert.h"
+#include "montecarlo/bsdf/mask.h"
+#include "montecarlo/bsdf/plastic.h"
+#include "montecarlo/bsdf/rough_conductor.h"
+#include "montecarlo/bsdf/rough_dielectric.h"
+#include "montecarlo/bsdf/smooth.h"
+#include "montecarlo/light/emission_picker.h"
+#include "montecarlo/light/light_set.h"
+#include "tests/montecarlo/rooms.h"
+
+// Nothing counts that has no density: where a density is zero there is nothing to be found, or it shows.
+namespace interflect::montecarlo {
+namespace {
+
+const double least = 0, next_to_one = 1 - std::numeric_limits<double>::epsilon() / 2;
+
+/// Numbers in [0, 1), every eighth one of them at an end.
+double number(core::RandomNumbers& numbers) {
+  const double u = numbers.next(), which = numbers.next();
+  return which < 1. / 16 ? least : which < 1. / 8 ? next_to_one : u;
+}
+
+/// Directions about z and -z, every fourth one within 1e-4 .. 1e-16 of the plane.
+Vec3 direction(core::RandomNumbers& numbers) {
+  const double u = numbers.next(), turn = 2 * pi * numbers.next(), which = numbers.next();
+  const double cosine = which < .25 ? std::pow(10., -4 - 12 * u) : u, side = numbers.next() < .5 ? -1 : 1,
+               sine = std::sqrt(1 - cosine * cosine);
+  return {sine * std::cos(turn), sine * std::sin(turn), side * cosine};
+}
+
+std::vector<std::unique_ptr<Bsdf>> make_all_bsdfs() {
+  Spectrum colour(.7);
+  colour[1] = .4;
+  using Metal = RoughConductor::Scattering;
+  using Glass = RoughDielectric::Scattering;
+  std::vector<std::unique_ptr<Bsdf>> all;
+  all.push_back(std::make_unique<Lambert>(colour));
+  all.push_back(std::make_unique<Lambert>(colour, Lambert::On::front));
+  all.push_back(std::make_unique<Mirror>(colour));
+  all.push_back(std::make_unique<Dielectric>(1.5));
+  all.push_back(std::make_unique<ThinPane>(1.5, Spectrum(.9)));
+  all.push_back(std::make_unique<Plastic>(1.5, colour));
+  for (const double alpha : {.05, .3, .8}) {
+    all.push_back(std::make_unique<RoughConductor>(alpha, MetalFresnel(colour)));
+    all.push_back(std::make_unique<RoughConductor>(alpha, MetalFresnel(colour), Metal::single));
+    for (const double eta : {1.5, 1 / 1.5}) {
+      all.push_back(std::make_unique<RoughDielectric>(alpha, eta));
+      all.push_back(std::make_unique<RoughDielectric>(alpha, eta, Glass::single));
+    }
+  }
+  all.push_back(std::make_unique<Mask>(.6, std::make_unique<RoughConductor>(.5, MetalFresnel(colour))));
+  all.push_back(std::make_unique<FrontOnly>(std::make_unique<RoughConductor>(.5, MetalFresnel(colour))));
+  return all;
+}
+
+/// Once: rough ones make tables.
+const std::vector<std::unique_ptr<Bsdf>>& all_bsdfs() {
+  static const std::vector<std::unique_ptr<Bsdf>> all = make_all_bsdfs();
+  return all;
+}
+
+// So that a direction that is refused for its density (scattered, bsdf.h) would have brought nothing.
+TEST(ZeroDensity, of_a_direction_is_where_nothing_is_scattered) {
+  std::uint32_t stream = 0;
+  for (const auto& bsdf : all_bsdfs()) {
+    core::RandomNumbers numbers(5, stream++, 0);
+    for (int k = 0; k < 5'000; ++k) {
+      const Vec3 known = direction(numbers), drawn = direction(numbers);
+      const double p = bsdf->pdf_solid_angle(known, drawn);
+      EXPECT_TRUE(std::isfinite(p) && p >= 0) << stream;
+      for (const Walk walk : {Walk::from_eye, Walk::from_light}) {
+        const Spectrum f = f_of(*bsdf, known, drawn, walk);
+        EXPECT_TRUE(f.is_finite()) << stream;
+        if (p == 0) {
+          EXPECT_TRUE(f.is_zero()) << stream << ": " << f[0] << " from " << known.transpose() << " to "
+                                   << drawn.transpose();
+        }
+      }
+    }
+  }
+}
+
+TEST(ZeroDensity, is_not_that_of_any_direction_drawn) {
+  std::uint32_t stream = 0;
+  for (const auto& bsdf : all_bsdfs()) {
+    core::RandomNumbers numbers(6, stream++, 0);
+    for (int k = 0; k < 5'000; ++k) {
+      const Vec3 known = direction(numbers);
+      const double lobe = number(numbers), u = number(numbers), v = number(numbers);
+      for (const Walk walk : {Walk::from_eye, Walk::from_light}) {
+        const auto on = bsdf->sample(known, {lobe, u, v}, walk);
+        if (!on) continue;
+        EXPECT_TRUE(on->weight.is_finite()) << stream;
+        EXPECT_TRUE(on->delta || on->pdf_solid_angle > 0) << stream;
+      }
+    }
+  }
+}
+
+TEST(ZeroDensity, is_not_that_of_any_light_drawn) {
+  for (const scene::Scene& scene : {test::lit_by_all(), test::shiny(), test::furnished(1e-6), test::furnished(1e6)}) {
+    const double scale = scene.box().max().x() / 3;
+    const LightSet lights(scene);
+    const EmissionPicker emissions(lights);
+    core::RandomNumbers numbers(7, 0, 0);
+    for (int k = 0; k < 5'000; ++k) {
+      const auto [leaving, part] = emissions.pick(numbers.next());
+      const Emission emission =
+          lights[leaving].sample_emission({number(numbers), number(numbers), number(numbers), number(numbers)});
+      EXPECT_TRUE(part > 0 && emission.pdf_area > 0 && emission.pdf_solid_angle > 0) << leaving;
+      EXPECT_TRUE(emission.weight.is_finite()) << leaving;
+      const Vec3 normal = direction(numbers);
+      const Place place{scale * Vec3(numbers.next(), numbers.next(), numbers.next()),
+                        k % 4 == 0 ? Vec3(Vec3::Zero()) : normal};
+      const auto [light, probability] = lights.pick(place, number(numbers));
+      EXPECT_TRUE(probability >= 0) << light;
+      const auto found = lights[light].sample_arriving(place, number(numbers), number(numbers));
+      if (!found) continue;
+      EXPECT_TRUE(found->light.is_finite()) << light;
+      EXPECT_TRUE(lights[light].is_delta() ? found->pdf_solid_angle == 0
+                                           : found->pdf_solid_angle > 0 && std::isfinite(found->pdf_solid_angle))
+          << light << ": " << found->pdf_solid_angle;
+    }
+  }
+}
+
+TEST(ZeroDensity, makes_what_a_walk_carries_no_number) {
+  const Spectrum carried = test::grey(.5);
+  EXPECT_EQ(carried_to(carried, 1e-300), carried);
+  EXPECT_FALSE(carried_to(carried, 0).is_finite());
+  EXPECT_FALSE(carried_to(carried, std::numeric_limits<double>::quiet_NaN()).is_finite());
+}
+
+}  // namespace
+}  // namespace interflect::montecarlo
