@@ -29,6 +29,7 @@ class EveryIntegrator : public testing::TestWithParam<std::string> {
     settings.paths = measure::PathClasses::of(paths);
     return make_integrator(GetParam(), settings);
   }
+  bool by_chance() const { return integrator_entry(GetParam()).by_chance; }
   /// A sample of light tracing is a path for all that is asked, of the others one for each.
   std::uint64_t samples(std::uint64_t of_each) const { return GetParam() == "light" ? 8 * of_each : of_each; }
 };
@@ -79,6 +80,7 @@ TEST_P(EveryIntegrator, holds_the_truth_as_often_as_it_says) {
 
 // In double precision, facet by facet, rays meet the same.
 TEST_P(EveryIntegrator, agrees_with_itself_by_rays_in_double_precision) {
+  if (by_chance()) GTEST_SKIP() << "known as well only by ten times the samples: brute.cpp";
   const scene::Scene scene = test::furnished(1);
   const std::vector<measure::Measurement> asked{
       measure::Flux{measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front)},
@@ -104,7 +106,7 @@ TEST_P(EveryIntegrator, has_the_same_bits_for_any_number_of_threads) {
       EXPECT_EQ(each[m].value, found[0][m].value);
       EXPECT_EQ(each[m].standard_error, found[0][m].standard_error);
     }
-  if (GetParam() != "path") {
+  if (GetParam() != "path" && GetParam() != "unidirectional") {
     EXPECT_EQ(found[0][2].value, found[0][4].value);  // asked twice, of one film
   }
 }
@@ -147,6 +149,7 @@ TEST_P(EveryIntegrator, knows_paths_by_their_length) {
 
 // In a room of every material, class by class, as path tracing finds them.
 TEST_P(EveryIntegrator, agrees_with_path_tracing_class_by_class) {
+  if (by_chance()) GTEST_SKIP() << "known as well only by ten times the samples: unidirectional.cpp";
   const scene::Scene scene = test::shiny();
   std::vector<measure::Measurement> asked{
       measure::Flux{measure::patches_of(scene, test::surface_named(scene, "room/z-"), scene::Side::front)},
@@ -189,9 +192,9 @@ TEST_P(EveryIntegrator, adds_parts_of_all_paths_up_to_the_whole) {
   }
 }
 
-std::vector<std::string> that_find_all_paths() { return {"path", "bidirectional", "light"}; }
+std::vector<std::string> that_find_all_light_of_lamps() { return {"path", "unidirectional", "bidirectional", "light"}; }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryIntegrator, testing::ValuesIn(that_find_all_paths()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryIntegrator, testing::ValuesIn(that_find_all_light_of_lamps()),
                          [](const auto& of) { return of.param; });
 
 /// A point over a mirror and a floor.

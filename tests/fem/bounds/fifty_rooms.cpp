@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tests/fem/bounds/manufactured.h"
 #include "tests/fem/bounds/random_room.h"
 
 namespace interflect::fem {
@@ -85,6 +86,16 @@ void expect_order(unsigned first, unsigned last, double of_coarse, double of_fin
 // times over, more of them three times.
 TEST(EnclosureOfFiftyRooms, narrows_with_the_elements) { expect_order(101, 150, 1.4, .7, true); }
 TEST(EnclosureOfFiftyRooms, narrows_with_many_elements) { expect_order(101, 106, .34, .25, false); }
+
+TEST(Enclosure, holds_manufactured_solutions_in_twenty_rooms) {
+  core::LocalRun run;
+  for (const int order : {0, 1})
+    for (unsigned seed = 21; seed <= 40; ++seed) {
+      const test::Manufactured found = test::manufactured(seed, order, enough_memory, run.get());
+      EXPECT_EQ(found.outside, 0) << seed << ", order " << order << ", of " << found.elements;
+      EXPECT_LT(found.width, found.size) << seed << ", order " << order;
+    }
+}
 
 }  // namespace
 }  // namespace interflect::fem
