@@ -1,5 +1,9 @@
 #include "core/team.h"
 
+#include <system_error>
+
+#include "core/error.h"
+
 namespace interflect::core {
 namespace {
 
@@ -30,8 +34,12 @@ void StepCount::wait_for(Index steps) const {
 }
 
 Team::Team(unsigned members) {
+  if (members == 0) throw PreconditionError("team: a member expected");
   others_.reserve(members - 1);
-  for (unsigned member = 1; member < members; ++member) others_.emplace_back([this, member] { serve(member); });
+  try {
+    for (unsigned member = 1; member < members; ++member) others_.emplace_back([this, member] { serve(member); });
+  } catch (const std::system_error&) {  // there are no more threads: a smaller team does the same work
+  }
 }
 
 Team::~Team() {

@@ -9,8 +9,8 @@
 
 namespace interflect::core {
 
-/// A count that one thread raises and others wait for, a microsecond at most as a rule: they look again and again before
-/// they let others run.
+/// A count that one thread raises and others wait for, a microsecond or so where each has a processor: they look again and
+/// again, and then let others run in between.  Where processors have other work too, that is milliseconds.
 class alignas(64) StepCount {
  public:
   /// What was done before is seen by those who have waited.
@@ -25,7 +25,7 @@ class alignas(64) StepCount {
 /// on one.  They sleep between one work and the next.
 class Team {
  public:
-  /// @param members  1 or more, the caller included
+  /// @param members  1 or more, the caller included; fewer if the system has no threads left
   explicit Team(unsigned members);
   ~Team();
   Team(const Team&) = delete;

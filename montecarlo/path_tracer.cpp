@@ -3,7 +3,6 @@
 #include <chrono>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 #include "montecarlo/measurement_sampler.h"
 #include "montecarlo/rare_light.h"
@@ -20,8 +19,8 @@ SamplingSettings sampling_of(const PathTracerSettings& s) {
 
 class PathTraced final : public SampledMeasurements {
  public:
-  PathTraced(const PathEstimator& paths, std::span<const measure::Measurement> asked)
-      : paths_(paths), rare_(montecarlo::rare_light(paths.scene(), paths.classes())) {
+  PathTraced(const PathEstimator& paths, std::span<const measure::Measurement> asked, NextEvent next_event)
+      : paths_(paths), rare_(paths.scene(), paths.classes(), next_event) {
     measured_.reserve(asked.size());
     for (const measure::Measurement& each : asked) measured_.emplace_back(paths.scene(), each);
   }
@@ -31,7 +30,7 @@ class PathTraced final : public SampledMeasurements {
   std::size_t size() const override { return measured_.size(); }
   double scale(std::size_t m) const override { return measured_[m].scale(); }
   Spectrum largest_score() const override { return paths_.largest_score(); }
-  const RareLight* rare_light(std::size_t) const override { return rare_ ? &*rare_ : nullptr; }
+  const RareLights* rare_lights() const override { return rare_.empty() ? nullptr : &rare_; }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
     measured_[m].sample(paths_, {seed, stream, first}, samples);
@@ -39,7 +38,7 @@ class PathTraced final : public SampledMeasurements {
 
  private:
   const PathEstimator& paths_;
-  std::optional<RareLight> rare_;
+  RareLights rare_;
   std::vector<MeasurementSampler> measured_;
 };
 
@@ -61,7 +60,7 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
   require_valid(sampling_of(settings_), "path tracer");
   require_found(*this, scene, asked, settings_.paths);
   const PathEstimator paths(scene, caster, settings_.paths, settings_.next_event);
-  const PathTraced measurements(paths, asked);
+  const PathTraced measurements(paths, asked, settings_.next_event);
   if (paths.lights().empty())
     return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
   return sampled_answers(measurements, sampling_of(settings_), paths.lights().flux(), run);
@@ -77,7 +76,7 @@ PathTracer::Trial PathTracer::trial(const scene::Scene& scene, std::span<const m
     tried.push_back(asked[i * asked.size() / std::min(trials, asked.size())]);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const PathEstimator paths(scene, *caster, settings_.paths, settings_.next_event);
-  const PathTraced measurements(paths, tried);
+  const PathTraced measurements(paths, tried, settings_.next_event);
   if (paths.lights().empty()) return {};
 
   SamplingTarget target = target_of(sampling_of(settings_), scene, paths.lights().flux(), fewest_samples);

@@ -7,43 +7,63 @@
 #include "montecarlo/scene_paths.h"
 
 namespace interflect::montecarlo {
-namespace {
 
-void add(const std::string& name, double chance, const Spectrum& pi_radiance, RareLight& rarest) {
-  if (chance < rarest.chance) rarest = {name, chance, pi_radiance};
-}
-
-double combined(double a, double b) { return std::sqrt(a * a + b * b); }
-
-}  // namespace
-
-std::optional<RareLight> rare_light(const scene::Scene& scene, const measure::PathClasses& paths) {
-  if ((paths_in(scene) & paths & measure::PathClasses::of("(A|F)S.*E")).empty()) return std::nullopt;
+RareLights::RareLights(const scene::Scene& scene, const measure::PathClasses& paths, NextEvent next_event)
+    : by_mirrors_(next_event == NextEvent::yes) {
+  const measure::PathClasses there = paths_in(scene) & paths;
+  const auto may_be = [&](const char* light) {
+    const std::string by_chance = std::string(light) + (by_mirrors_ ? "S.*E" : ".*E");
+    return !(there & measure::PathClasses::of(by_chance)).empty();
+  };
   const double radius = scene.box().diagonal().norm() / 2;
-  RareLight rarest{"", 1, Spectrum::zero()};
-  for (const scene::SurfaceId id : scene.surface_ids())
-    for (const scene::Side side : {scene::Side::front, scene::Side::back})
-      if (const Spectrum exitance = scene.material(id).exitance_of(side); !exitance.is_zero())
-        add(scene.surface(id).name, scene.area(id) / (pi * radius * radius), exitance, rarest);
-  for (const scene::SphereLight& ball : scene.lights.spheres)
-    if (!ball.exitance.is_zero()) add(ball.name, std::pow(ball.radius / radius, 2), ball.exitance, rarest);
-  for (const scene::Sun& sun : scene.lights.suns)
-    if (sun.one_minus_cosine() > 0) add(sun.name, sun.squared_sine(), pi * sun.radiance(), rarest);
-  return rarest.chance < 1 ? std::optional(rarest) : std::nullopt;
+  if (may_be("A")) {
+    for (const scene::SurfaceId id : scene.surface_ids())
+      for (const scene::Side side : {scene::Side::front, scene::Side::back})
+        if (const Spectrum exitance = scene.material(id).exitance_of(side); !exitance.is_zero())
+          lights_.push_back({scene.surface(id).name, scene.area(id) / (pi * radius * radius), false, exitance});
+    for (const scene::SphereLight& ball : scene.lights.spheres)
+      if (!ball.exitance.is_zero())
+        lights_.push_back({ball.name, std::pow(ball.radius / radius, 2), false, ball.exitance});
+  }
+  if (may_be("F"))
+    for (const scene::Sun& sun : scene.lights.suns)
+      if (sun.one_minus_cosine() > 0 && !sun.irradiance.is_zero())
+        lights_.push_back({sun.name, sun.squared_sine(), true, pi * sun.radiance()});
 }
 
-void RareLight::widen(const scene::Scene& scene, double scale, Estimate& estimate) const {
-  const Spectrum lacks = pi_radiance * (scale * std::min(3.0 / static_cast<double>(estimate.samples), chance));
-  for (int c = 0; c < Spectrum::capacity; ++c)
-    estimate.standard_error[c] = combined(estimate.standard_error[c], lacks[c]);
-  estimate.weighed_standard_error = combined(estimate.weighed_standard_error, scene.weigh(lacks));
+Spectrum RareLights::RareLight::lacks(double samples, double otherwise) const {
+  if (samples >= samples_to_meet(otherwise)) return Spectrum::zero();
+  return find(otherwise) * std::min(3 / samples, anywhere ? met_by(otherwise) : 1.0);
 }
 
-std::string RareLight::text(std::uint64_t samples) const {
+Spectrum RareLights::lacks(std::uint64_t samples, double otherwise) const {
+  Spectrum squares;
+  for (const RareLight& light : lights_) {
+    const Spectrum of_this = light.lacks(static_cast<double>(samples), otherwise);
+    squares += of_this * of_this;
+  }
+  for (int c = 0; c < Spectrum::capacity; ++c) squares[c] = std::sqrt(squares[c]);
+  return squares;
+}
+
+double RareLights::samples_for(double wanted, const scene::Scene& scene, double otherwise) const {
+  const double of_each = wanted / std::sqrt(static_cast<double>(lights_.size()));
+  double samples = 0;
+  for (const RareLight& light : lights_) {
+    const double find = scene.weigh(light.find(otherwise));
+    if (light.anywhere && light.met_by(otherwise) * find <= of_each) continue;
+    samples = std::max(samples, std::min(3 * find / of_each, light.samples_to_meet(otherwise)));
+  }
+  return samples;
+}
+
+std::string RareLights::text(const scene::Scene& scene, std::uint64_t samples) const {
+  const auto lacked = [&](const RareLight& light) { return scene.weigh(light.lacks(static_cast<double>(samples), 0)); };
+  const RareLight& most = *std::ranges::max_element(lights_, {}, lacked);
   return core::format(
-      "light of %s by way of mirrors or smooth glass is met by one path in %.0f at most, and %llu were taken: errors "
-      "allow for its image in one flat mirror, and know of no more",
-      light.c_str(), 1 / chance, static_cast<unsigned long long>(samples));
+      "light of %s%s is met by one path in %.0f or so, and %llu were taken: errors allow for some that none has met",
+      most.name.c_str(), by_mirrors_ ? " by way of mirrors or smooth glass" : "", 1 / most.chance,
+      static_cast<unsigned long long>(samples));
 }
 
 }  // namespace interflect::montecarlo

@@ -1,36 +1,51 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "core/estimate.h"
 #include "measure/path_classes.h"
+#include "montecarlo/next_event.h"
 #include "scene/scene.h"
 
 namespace interflect::montecarlo {
 
-/// Light of which chance alone tells: what a small light sends by way of a mirror or smooth glass onto what is none.  No
-/// way can be drawn to it, and where no path has met it, samples know nothing of it.
-struct RareLight {
-  std::string light;
-  double chance;         ///< that a path which leaves diffusely meets it: its image in one flat mirror, at most
-  Spectrum pi_radiance;  ///< pi L: the irradiance that such a path finds [W/m² | lx]
-
-  /// Samples that meet it ten times on average, if it is there: in one of 20 000 cases none does.
-  double samples_to_meet() const { return 10 / chance; }
-  bool is_met_by(std::uint64_t samples) const { return static_cast<double>(samples) >= samples_to_meet(); }
-  /// Adds to the standard error of fewer samples what they may lack: by the rule of three, 3 pi L / n, but no more than such
-  /// an image gives, chance x pi L.
-  /// @param scale  what an irradiance of 1 everywhere would measure
-  void widen(const scene::Scene& scene, double scale, Estimate& estimate) const;
-  /// "light of sun by way of mirrors or smooth glass is met by one path in 46223 at most, and 4096 were taken: ..."
-  std::string text(std::uint64_t samples) const;
-};
-
-/// The rarest that there may be among `paths`; nothing where there is none.  From a place at the scene's radius R from it
-/// a sun of the half angle alpha is met by sin² alpha of all paths, a ball by (r / R)², a surface by its area over pi R².
+/// Light of which chance alone tells: what small lights send by way of mirrors or smooth glass onto what is none.  No way
+/// can be drawn to it, and where no path has met it, samples know nothing of it.  Without next-event estimation all light is
+/// of that kind.
+///
+/// A find is pi L of irradiance.  Where n samples met none, a light may have brought 3 pi L / n (rule of three); a sun no
+/// more than H, what its image in a flat mirror gives.  A light counts as met where a path of the scene's size meets it a
+/// hundred times in n samples: ten times where it shines at a tenth of that, aslant or by a dark mirror.
 /// Test: tests/montecarlo/rare_light.cpp
-std::optional<RareLight> rare_light(const scene::Scene& scene, const measure::PathClasses& paths);
+class RareLights {
+ public:
+  /// @param paths  that count
+  RareLights(const scene::Scene& scene, const measure::PathClasses& paths, NextEvent next_event = NextEvent::yes);
+  bool empty() const { return lights_.empty(); }
+
+  /// What so many samples of an irradiance may lack, as a standard error [W/m² | lx].
+  /// @param otherwise  chance that a sample finds such light in another way
+  Spectrum lacks(std::uint64_t samples, double otherwise = 0) const;
+  /// Samples for which that is as little, weighed, as far as samples help.
+  double samples_for(double wanted, const scene::Scene& scene, double otherwise = 0) const;
+  /// "light of sun by way of mirrors or smooth glass is met by one path in 46223 or so, and 4096 were taken: .."
+  std::string text(const scene::Scene& scene, std::uint64_t samples) const;
+
+ private:
+  struct RareLight {
+    std::string name;
+    double chance;         ///< that a path which leaves diffusely at the scene's radius from it meets it
+    bool anywhere;         ///< the same everywhere: a sun
+    Spectrum pi_radiance;  ///< pi L
+    double met_by(double otherwise) const { return std::max(chance, otherwise); }
+    double samples_to_meet(double otherwise) const { return 100 / met_by(otherwise); }
+    Spectrum find(double otherwise) const { return pi_radiance * (chance / met_by(otherwise)); }
+    Spectrum lacks(double samples, double otherwise) const;
+  };
+  std::vector<RareLight> lights_;
+  bool by_mirrors_;
+};
 
 }  // namespace interflect::montecarlo

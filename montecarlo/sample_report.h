@@ -19,7 +19,8 @@ struct SampleReport {
   };
   std::uint64_t not_finite = 0;
   std::vector<Heavy> heavy;
-  std::string rare;  ///< of light that samples may not have met (RareLight::text); empty where there is none
+  std::string rare;  ///< of light that samples may not have met (RareLights::text); empty where there is none
+  std::uint64_t rare_samples = 0;  ///< of the measurement that this is of
 
   void add(std::size_t measurement, const Tally& tally);
   /// Of measurements of[0], of[1], .. of a longer list.

@@ -116,17 +116,31 @@ double mean_irradiance_scale(const scene::Scene& scene, const Spectrum& flux) {
 
 namespace {
 
-std::uint64_t samples_to_meet(const RareLight* rare, const SamplingTarget& target) {
-  if (rare == nullptr) return 0;
-  return static_cast<std::uint64_t>(std::ceil(std::min(rare->samples_to_meet(), static_cast<double>(target.most))));
+/// For which what they may lack is as little as the target, of a measurement of this weighted mean.
+std::uint64_t samples_for_what_is_rare(const SampledMeasurements& measurements, std::size_t m, double mean,
+                                       const SamplingTarget& target) {
+  const RareLights* rare = measurements.rare_lights();
+  const double scale = measurements.scale(m), wanted = target.standard_error(mean, scale) / scale;
+  if (rare == nullptr || !(wanted > 0)) return 0;
+  const double samples = rare->samples_for(wanted, measurements.scene(), measurements.finds_otherwise(m));
+  return static_cast<std::uint64_t>(std::ceil(std::min(samples, static_cast<double>(target.most))));
 }
 
+double combined(double a, double b) { return std::sqrt(a * a + b * b); }
+
+/// Into the standard error; told where it is most of that, of the measurement that has the fewest samples.
 void add_what_is_rare(const SampledMeasurements& measurements, std::size_t m, Estimate& estimate,
                       SampleReport& report) {
-  const RareLight* rare = measurements.rare_light(m);
-  if (rare == nullptr || rare->is_met_by(estimate.samples)) return;
-  rare->widen(measurements.scene(), measurements.scale(m), estimate);
-  report.rare = rare->text(estimate.samples);
+  const RareLights* rare = measurements.rare_lights();
+  if (rare == nullptr) return;
+  const Spectrum lacks = measurements.scale(m) * rare->lacks(estimate.samples, measurements.finds_otherwise(m));
+  for (int c = 0; c < Spectrum::capacity; ++c)
+    estimate.standard_error[c] = combined(estimate.standard_error[c], lacks[c]);
+  const double weighed = measurements.scene().weigh(lacks), known = estimate.weighed_standard_error;
+  estimate.weighed_standard_error = combined(known, weighed);
+  if (weighed == 0 || known > weighed || (!report.rare.empty() && report.rare_samples <= estimate.samples)) return;
+  report.rare = rare->text(measurements.scene(), estimate.samples);
+  report.rare_samples = estimate.samples;
 }
 
 }  // namespace
@@ -143,13 +157,14 @@ SamplingPlan plan_samples(const SampledMeasurements& measurements, const Samplin
     const double scale = measurements.scale(m),
                  largest = scale * measurements.scene().weigh(measurements.largest_score());
     const auto needed = [&](std::uint64_t seed, std::uint64_t samples) {
-      return samples_needed(known_of(sample_block(measurements, m, seed, 0, samples)), scale, largest, target);
+      const core::ScalarMoments known = known_of(sample_block(measurements, m, seed, 0, samples));
+      return std::max(samples_needed(known, scale, largest, target),
+                      samples_for_what_is_rare(measurements, m, known.mean(), target));
     };
-    const std::uint64_t to_meet = samples_to_meet(measurements.rare_light(m), target);
-    std::uint64_t n = std::max(needed(first, pilot_samples), to_meet);
+    std::uint64_t n = needed(first, pilot_samples);
     if (const std::uint64_t more = std::min(n / 8, largest_pilot); more > pilot_samples) {
       spent[m] += more;
-      n = std::max(needed(second, more), to_meet);
+      n = needed(second, more);
     }
     plan.counts[m] = n;
     stage.advance();

@@ -24,8 +24,10 @@ class SampledMeasurements {
   virtual double scale(std::size_t measurement) const = 0;
   /// Of a measurement of scale 1, what a single sample finds at most, or nearly so.
   virtual Spectrum largest_score() const = 0;
-  /// Light that samples of a measurement find by chance alone; null where there is none.
-  virtual const RareLight* rare_light(std::size_t /*measurement*/) const { return nullptr; }
+  /// Light that samples find by chance alone; null where there is none.
+  virtual const RareLights* rare_lights() const { return nullptr; }
+  /// Chance that a sample of a measurement finds such light in another way.
+  virtual double finds_otherwise(std::size_t /*measurement*/) const { return 0; }
   /// The samples first, first + 1, .. of a measurement, sample k by the numbers of (seed, stream, k).
   /// @param samples  overwritten
   virtual void sample(std::size_t measurement, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
@@ -89,8 +91,8 @@ struct SamplingPlan {
 
 /// How many samples each measurement needs, from pilots that are thrown away: so the answer stays unbiased [Kirk and
 /// Arvo 1991].  The first pilot has 1024 samples.  Where it asks for more than eight times as many, a second one of n / 8
-/// samples (131 072 at most) decides: s² of few samples of a skewed distribution is too often far too small.  What is rare
-/// (SampledMeasurements::rare_light) is met by as many as it takes, up to the target's most.
+/// samples (131 072 at most) decides: s² of few samples of a skewed distribution is too often far too small.  As many are taken
+/// as bring what they may lack (RareLights) below the target, too.
 SamplingPlan plan_samples(const SampledMeasurements& measurements, const SamplingTarget& target, Run& run);
 
 /// The answers, planned where there is a target; what is not finite, and measurements that a cap ended, are warned of.

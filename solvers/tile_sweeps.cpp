@@ -12,6 +12,7 @@ constexpr Index tiles_a_piece =
 constexpr Index most_pieces = 64;
 constexpr Index same_pieces = 8;  // rows of tiles: where pieces change, threads wait for each other
 constexpr Index strips_a_row = tile_size / part_rows;
+static_assert(strips_a_row % 2 == 0);  // so that a strip and the next one have sums of their own
 
 Index padded(Index n, Index to) { return (n + to - 1) / to * to; }
 

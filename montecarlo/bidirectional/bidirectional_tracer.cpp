@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "core/format.h"
 #include "montecarlo/bidirectional/bidirectional_film.h"
@@ -35,7 +34,7 @@ struct Sensor {
 class Joined final : public SampledMeasurements {
  public:
   Joined(const BidirectionalEstimator& walks, const measure::PathClasses& paths)
-      : walks_(walks), rare_(montecarlo::rare_light(walks.scene(), paths)) {}
+      : walks_(walks), rare_(walks.scene(), paths), section_(pi / 4 * walks.scene().box().diagonal().squaredNorm()) {}
   void add(const measure::Measurement& asked) { sensors_.emplace_back(asked); }
 
   const scene::Scene& scene() const override { return walks_.scene(); }
@@ -44,9 +43,11 @@ class Joined final : public SampledMeasurements {
   std::size_t size() const override { return sensors_.size(); }
   double scale(std::size_t m) const override { return sensors_[m].scale; }
   Spectrum largest_score() const override { return walks_.largest_score(); }
-  /// Patches are met by the light's walk too.
-  const RareLight* rare_light(std::size_t m) const override {
-    return rare_ && sensors_[m].place.pdf_area() == 0 ? &*rare_ : nullptr;
+  const RareLights* rare_lights() const override { return rare_.empty() ? nullptr : &rare_; }
+  /// Patches are met by the light's walk too: from afar by their share of the scene's cross-section.
+  double finds_otherwise(std::size_t m) const override {
+    const double pdf_area = sensors_[m].place.pdf_area();
+    return pdf_area == 0 ? 0 : std::min(1.0, 1 / (pdf_area * section_));
   }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
@@ -74,7 +75,8 @@ class Joined final : public SampledMeasurements {
   }
 
   const BidirectionalEstimator& walks_;
-  std::optional<RareLight> rare_;
+  RareLights rare_;
+  double section_;
   std::vector<Sensor> sensors_;
 };
 

@@ -1,7 +1,6 @@
 #include "montecarlo/controlled/controlled.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,7 +26,7 @@ struct Expected {
 class ControlledMeasurements final : public SampledMeasurements {
  public:
   ControlledMeasurements(const ControlledPaths& paths, std::span<const measure::Measurement> asked)
-      : paths_(paths), rare_(montecarlo::rare_light(scene(), paths.paths().classes())), expected_(asked.size()) {
+      : paths_(paths), rare_(scene(), paths.paths().classes()), expected_(asked.size()) {
     measured_.reserve(asked.size());
     for (const measure::Measurement& each : asked) measured_.emplace_back(scene(), each);
   }
@@ -37,7 +36,7 @@ class ControlledMeasurements final : public SampledMeasurements {
   std::size_t size() const override { return measured_.size(); }
   double scale(std::size_t m) const override { return measured_[m].scale(); }
   Spectrum largest_score() const override { return paths_.largest_score(); }
-  const RareLight* rare_light(std::size_t) const override { return rare_ ? &*rare_ : nullptr; }
+  const RareLights* rare_lights() const override { return rare_.empty() ? nullptr : &rare_; }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
     std::vector<Spectrum> light(samples.size());
@@ -105,7 +104,7 @@ class ControlledMeasurements final : public SampledMeasurements {
   }
 
   const ControlledPaths& paths_;
-  std::optional<RareLight> rare_;
+  RareLights rare_;
   std::vector<MeasurementSampler> measured_;
   std::vector<Expected> expected_;
 };

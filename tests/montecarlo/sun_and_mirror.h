@@ -8,7 +8,7 @@ namespace interflect::test {
 
 inline constexpr double under_sun_and_mirror = .8 + .8 * .8;
 
-inline scene::Scene sun_and_mirror(double scale, double angular_radius) {
+inline scene::Scene sun_and_mirror(double scale, double angular_radius, const Vec3& direction = Vec3(.6, 0, -.8)) {
   scene::SceneBuilder builder({"grey"});
   scene::Material mirror;
   mirror.name = "mirror", mirror.finish = scene::Mirror{grey(.8)};
@@ -16,7 +16,7 @@ inline scene::Scene sun_and_mirror(double scale, double angular_radius) {
   builder.add_polygon("floor", parallelogram(Vec3::Zero(), x, y), builder.add_material(diffuse("grey", .5, 0)));
   builder.add_polygon("wall", parallelogram(x, 2 * z, y), builder.add_material(mirror));
   builder.scene().lights.suns.push_back(
-      {.name = "sun", .direction = Vec3(.6, 0, -.8), .irradiance = grey(1), .angular_radius = angular_radius});
+      {.name = "sun", .direction = direction, .irradiance = grey(1), .angular_radius = angular_radius});
   builder.scene().cameras.push_back({"c", .2 * x + .5 * y + 1.2 * z, .5 * x + .5 * y, Vec3::UnitX(), 20, 1, 1});
   return builder.finish();
 }

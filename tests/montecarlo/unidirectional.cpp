@@ -1,3 +1,4 @@
+#include "core/error.h"
 #include "montecarlo/integrators.h"
 #include "montecarlo/path_tracer.h"
 #include "tests/montecarlo/rooms.h"
@@ -52,8 +53,19 @@ TEST(Unidirectional, knows_a_furnace) {
 // What it finds is all of what rays can find, and nothing of points.
 TEST(Unidirectional, refuses_points_and_is_named_so) {
   EXPECT_EQ(unidirectional(2).name(), "unidirectional");
-  EXPECT_TRUE((unidirectional(2).capabilities().to_pixels & measure::PathClasses::of("P.*E|B.*E")).empty());
-  EXPECT_TRUE(make_integrator("unidirectional", {})->capabilities().unbiased);
+  scene::SceneBuilder builder({"grey"});
+  builder.add_polygon("floor", test::parallelogram(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()),
+                      builder.add_material(test::diffuse("grey", .5, 0)));
+  builder.scene().lights.points.push_back({"p", Vec3(.5, .5, .5), test::grey(1)});
+  builder.scene().cameras.push_back({"c", Vec3(.5, .5, 1), Vec3(.5, .5, 0), Vec3::UnitX(), 40, 1, 1});
+  const scene::Scene scene = builder.finish();
+  core::LocalRun run(1);
+  const auto floor = measure::patches_of(scene, test::surface_named(scene, "floor"), scene::Side::front);
+  const std::vector<measure::Measurement> all{measure::Flux{floor},
+                                              measure::PointIrradiance{Vec3(.5, .5, .1), Vec3::UnitZ(), {}},
+                                              measure::PixelRadiance{{0}, 0, 0}};
+  for (const measure::Measurement& each : all)
+    EXPECT_THROW(make_integrator("unidirectional", {})->answer(scene, {&each, 1}, run.get()), core::InputError);
 }
 
 }  // namespace
