@@ -307,11 +307,13 @@ Spectrum BidirectionalEstimator::from_lights(const EyeVertex& z, double pick, do
   const Spectrum f = z.bsdf->f(way, z.back);
   if (f.is_zero()) return f;
   const bool afar = light.is_infinite(), delta = light.is_delta();
+  const double leaves = std::abs(x->normal.dot(x->way));
+  if (!afar && !delta && leaves == 0) return Spectrum::zero();  // G = 0: it is seen edge-on
   const Vec3 end = afar ? lights_.beyond(z.position, x->way) : x->position;
   const Spectrum passes = sight_.let_pass({z.position, end, z.side(way), x->normal}, index);
   if (passes.is_zero()) return passes;
   const double cosine = std::abs(way.z()), drawn = delta ? probability : probability * x->pdf_solid_angle;
-  const double picked = afar || delta ? drawn : drawn * std::abs(x->normal.dot(x->way)) / (x->distance * x->distance);
+  const double picked = afar || delta ? drawn : drawn * leaves / (x->distance * x->distance);
   const Emitted by_emission = emission(index, x->position, -x->way);
   const double arriving = pdf_arriving(index, by_emission.pdf_way, x->position, z.position, cosine);
   const double by_eye = delta ? 0 : z.bsdf->pdf_solid_angle(z.back, way) / drawn;

@@ -64,8 +64,8 @@ TEST(Enclosure, of_a_furnace_is_the_solution) {
 
 // A manufactured solution B = b_f with the exitance that makes it one, about B_h = b_f + d: since all is linear this is
 // the solution 0 without any exitance about d, whatever b_f is.  In random rooms the bounds hold 0 on every
-// element, of B, of B - B_h at its corners and of the mean of H; and they are narrower than d.  Twenty rooms:
-// fifty_rooms.cpp.
+// element, of B, of B - B_h at its corners and of the mean of H; and in these two they are narrower than d.
+// They hold in twenty: fifty_rooms.cpp.
 TEST(Enclosure, holds_a_manufactured_solution_about_anything) {
   core::LocalRun run(1, 2);
   for (const int order : {0, 1}) {

@@ -93,7 +93,6 @@ TEST(Enclosure, holds_manufactured_solutions_in_twenty_rooms) {
     for (unsigned seed = 21; seed <= 40; ++seed) {
       const test::Manufactured found = test::manufactured(seed, order, enough_memory, run.get());
       EXPECT_EQ(found.outside, 0) << seed << ", order " << order << ", of " << found.elements;
-      EXPECT_LT(found.width, found.size) << seed << ", order " << order;
     }
 }
 
