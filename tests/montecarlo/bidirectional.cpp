@@ -43,7 +43,7 @@ TEST(Bidirectional, agrees_with_path_tracing_on_every_material_and_camera) {
       measure::Flux{measure::patches_of(scene, test::surface_named(scene, "net"), scene::Side::front)}};
   for (std::uint32_t camera = 0; camera < 5; ++camera)
     for (const int k : {0, 1, 2}) asked.push_back(measure::PixelRadiance{{camera}, 1 + (k == 1), 1 + (k == 2)});
-  test::expect_same(BidirectionalTracer({.samples = 30'000}), PathTracer({.samples = 150'000}), scene, asked, .1);
+  test::expect_same(BidirectionalTracer({.samples = 60'000}), PathTracer({.samples = 150'000}), scene, asked, .1);
 }
 
 /// Plates about a room that do not touch: where lit surfaces do, strategies that join two walks have no finite variance
