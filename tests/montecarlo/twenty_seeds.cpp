@@ -9,6 +9,7 @@
 #include "montecarlo/scene_paths.h"
 #include "scene/reader.h"
 #include "tests/montecarlo/rooms.h"
+#include "tests/montecarlo/solution_rooms.h"
 
 /// Unbiased integrators on what two of them find, over 20 seeds: whatever their own errors are worth, the means of
 /// their differences are 0, within what seeds scatter.
@@ -32,22 +33,13 @@ struct Resolution {
   double of_every;
 };
 
-/// That says the same of every point: controlled paths are unbiased, however wrong their solution.
-measure::SurfaceSolution same_everywhere(double reflected) {
-  measure::SurfaceSolution solution;
-  measure::SurfaceSolution::Known known;
-  known.reflected = Spectrum(reflected);
-  solution.at = [known](const scene::SurfacePoint&) -> const auto& { return known; };
-  return solution;
-}
-
 /// What integrators find of a list of measurements in a scene, seed by seed.
 class Runs {
  public:
   using Values = std::vector<std::vector<Spectrum>>;  ///< [seed][measurement]
 
   Runs(const scene::Scene& scene, const std::vector<Measurement>& asked, double reflected)
-      : scene_(scene), asked_(asked), solution_(same_everywhere(reflected)) {}
+      : scene_(scene), asked_(asked), solution_(test::says_everywhere(Spectrum(reflected))) {}
 
   /// Of the scene's paths those that it finds to all that is asked.
   PathClasses paths_of(const Asked& by) const {
@@ -121,7 +113,7 @@ void expect_no_difference(const Runs::Values& of_a, const Runs::Values& of_b, in
     }
 }
 
-/// @param reflected  rho H of the walls, about, as controlled paths are told
+/// @param reflected  rho H of the walls, about, as controlled paths are told: they are unbiased, however wrong that is
 void expect_agreement(const scene::Scene& scene, const std::vector<Measurement>& asked, const Contest& contest,
                       const Resolution& resolution, double reflected = .2) {
   const auto pairs = contest.pairs();
