@@ -1,8 +1,10 @@
 #include "core/team.h"
 
+#include <chrono>
 #include <system_error>
 
 #include "core/error.h"
+#include "core/seconds_since.h"
 
 namespace interflect::core {
 namespace {
@@ -10,15 +12,22 @@ namespace {
 constexpr int looks = 512;    // some ten microseconds
 constexpr int yields = 1024;  // some hundred, where there are as many processors as threads
 
-/// Whether it is so soon: looks again and again, and later lets others run in between, as they may be what it waits for.
+/// Whether it is so in a moment: looks again and again.
 template <class Condition>
-bool is_soon(const Condition& condition) {
+bool looks_until(const Condition& condition) {
   for (int look = 0; look < looks; ++look) {
     if (condition()) return true;
 #if defined(__x86_64__)
     __builtin_ia32_pause();
 #endif
   }
+  return false;
+}
+
+/// Whether it is so soon: later lets others run in between looks, as they may be what it waits for.
+template <class Condition>
+bool is_soon(const Condition& condition) {
+  if (looks_until(condition)) return true;
   for (int yield = 0; yield < yields; ++yield) {
     if (condition()) return true;
     std::this_thread::yield();
@@ -28,9 +37,13 @@ bool is_soon(const Condition& condition) {
 
 }  // namespace
 
-void StepCount::wait_for(Index steps) const {
-  while (!is_soon([&] { return steps_.load(std::memory_order_acquire) >= steps; })) {
+double StepCount::wait_for(Index steps) const {
+  const auto is_done = [&] { return steps_.load(std::memory_order_acquire) >= steps; };
+  if (looks_until(is_done)) return 0;
+  const auto start = std::chrono::steady_clock::now();
+  while (!is_soon(is_done)) {
   }
+  return seconds_since(start);
 }
 
 Team::Team(unsigned members) {

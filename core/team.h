@@ -15,7 +15,8 @@ class alignas(64) StepCount {
  public:
   /// What was done before is seen by those who have waited.
   void raise_to(Index steps) { steps_.store(steps, std::memory_order_release); }
-  void wait_for(Index steps) const;
+  /// The seconds that it took, less the first moment, ten microseconds or so.
+  double wait_for(Index steps) const;
 
  private:
   std::atomic<Index> steps_{0};

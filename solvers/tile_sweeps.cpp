@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+#include <chrono>
+
+#include "core/seconds_since.h"
 
 namespace interflect::solvers {
 namespace {
@@ -25,6 +27,7 @@ TileSweeps::TileSweeps(const System& system, const TileAccess& tiles, double rel
       pieces_(static_cast<Index>(
           std::bit_floor(static_cast<std::size_t>(std::clamp(tile_rows() / tiles_a_piece, Index{1}, most_pieces))))),
       team_(std::min(run.threads.count(), static_cast<unsigned>(pieces_))),
+      attendance_(team_.size()),
       room_{CacheLines(x_.size()), CacheLines(x_.size())},
       up_(room_[0].data(), x_.rows(), x_.cols()),
       sent_(room_[1].data(), x_.rows(), x_.cols()),
@@ -53,7 +56,7 @@ void TileSweeps::back() {
 void TileSweeps::send_all() {
   sent_.setZero();
   team_.work([&](unsigned member) {
-    for (Index s = 0; s < strips(); ++s) work_on(pass_of(strip(s, true), strips(), {true, up_}), member);
+    for (Index s = 0; s < strips(); ++s) work_on(pass_of(strip(s, true), strips(), {true, up_}), member, team_.size());
   });
   up_ = sent_;
 }
@@ -65,31 +68,46 @@ TileSweeps::OneStrip TileSweeps::strip(Index s, bool ascending) const {
   return Strip{at / strips_a_row, at % strips_a_row * part_rows};
 }
 
-/// New values of strip s, by member 0, and beside it or after it, by all, a pass: what strip s - ahead sends, and strip
-/// s + 1 receives.
+/// Seconds.
+double TileSweeps::Steps::wait_for_all(Index passes) const {
+  double waited = 0;
+  for (const core::StepCount& of_member : passed) waited += of_member.wait_for(passes);
+  return waited;
+}
+
+/// By all, or by one alone where they would wait for each other: with the same bits.
 void TileSweeps::sweep_all(const Way& way) {
-  const Index all = strips(), ahead = team_.size() > 1 ? 1 : 0;
-  core::StepCount renewed;                            // strips
-  std::vector<core::StepCount> passed(team_.size());  // passes, by member
-  const auto wait_for_all = [&](Index passes) {
-    for (const core::StepCount& of_member : passed) of_member.wait_for(passes);
-  };
-  team_.work([&](unsigned member) {
-    work_on(pass_of({}, 0, way), member);
-    passed[member].raise_to(1);
-    for (Index s = 0; s < all + ahead; ++s) {
-      if (member == 0 && s < all) {
-        wait_for_all(s + 1);
-        renew(*strip(s, way.ascending), strip(s - 1, way.ascending), way);
-        renewed.raise_to(s + 1);
-      }
-      renewed.wait_for(std::min(all, s + 1 - ahead));
-      if (pieces(strip(s, way.ascending)).tiles != pieces(strip(s + 1, way.ascending)).tiles)
-        wait_for_all(s + 1);  // columns get other members
-      work_on(pass_of(strip(s - ahead, way.ascending), s + 1, way), member);
-      passed[member].raise_to(s + 2);
+  const auto start = std::chrono::steady_clock::now();
+  Steps steps{{}, std::vector<core::StepCount>(attendance_.members())};
+  std::vector<double> waited(steps.passed.size());
+  const auto sweep_by_one = [&](unsigned member) { waited[member] = sweep_by(member, way, steps); };
+  if (waited.size() == 1)
+    sweep_by_one(0);
+  else
+    team_.work(sweep_by_one);
+  attendance_.add(core::seconds_since(start), *std::ranges::max_element(waited));
+}
+
+/// New values of strip s, by member 0, and beside it or after it, by all, a pass: what strip s - ahead sends, and strip
+/// s + 1 receives.  The seconds that it waited for others.
+double TileSweeps::sweep_by(unsigned member, const Way& way, Steps& steps) {
+  const Index members = std::ssize(steps.passed), all = strips(), ahead = members > 1 ? 1 : 0;
+  double waited = 0;
+  work_on(pass_of({}, 0, way), member, members);
+  steps.passed[member].raise_to(1);
+  for (Index s = 0; s < all + ahead; ++s) {
+    if (member == 0 && s < all) {
+      waited += steps.wait_for_all(s + 1);
+      renew(*strip(s, way.ascending), strip(s - 1, way.ascending), way);
+      steps.renewed.raise_to(s + 1);
     }
-  });
+    waited += steps.renewed.wait_for(std::min(all, s + 1 - ahead));
+    if (pieces(strip(s, way.ascending)).tiles != pieces(strip(s + 1, way.ascending)).tiles)
+      waited += steps.wait_for_all(s + 1);  // columns get other members
+    work_on(pass_of(strip(s - ahead, way.ascending), s + 1, way), member, members);
+    steps.passed[member].raise_to(s + 2);
+  }
+  return waited;
 }
 
 /// How sums over a strip's columns are cut; where nothing is received, how what is sent is.
@@ -107,11 +125,12 @@ TileSweeps::Pass TileSweeps::pass_of(const OneStrip& sender, Index s, const Way&
           .receives = receiver ? receiver->I - (way.ascending && has_near(*receiver) ? 1 : 0) : 0};
 }
 
-/// A member's columns of a pass.  The last ones are member 0's, which has fewer of them, as it makes new values too:
-/// behind them lies the tile on the diagonal, which it needs.
-void TileSweeps::work_on(const Pass& pass, unsigned member) {
-  const Index place = team_.size() - 1 - member, members = team_.size();
-  const Index first = pieces_ * place / members, end = pieces_ * (place + 1) / members;
+/// A member's columns of a pass.  The last ones are member 0's, as behind them lies the tile on the diagonal, which it
+/// needs; where pieces cannot be shared out evenly it has fewer, as it makes new values too.
+void TileSweeps::work_on(const Pass& pass, Index member, Index members) {
+  const Index place = members - 1 - member;
+  const auto begin_of = [&](Index p) { return (pieces_ * p + members - 1) / members; };
+  const Index first = begin_of(place), end = begin_of(place + 1);
   const Pieces cut = pieces(pass.receiver);
   double* lanes = lanes_.data() + member * columns() * tile_size * tile_lanes;
   for (Index piece = first; piece < end; ++piece) {

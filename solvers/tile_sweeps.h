@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/attendance.h"
 #include "core/team.h"
 #include "solvers/sweeps.h"
 #include "solvers/tile_access.h"
@@ -59,6 +60,13 @@ class TileSweeps final : public Sweeps {
     Index begin(Index piece) const { return tiles * piece / pieces; }
   };
 
+  /// How far those have come who work on a sweep.
+  struct Steps {
+    core::StepCount renewed;              ///< strips
+    std::vector<core::StepCount> passed;  ///< passes, by member
+    double wait_for_all(Index passes) const;
+  };
+
   Index tile_rows() const { return x_.cols() / tile_size; }
   Index strips() const { return tile_rows() * (tile_size / part_rows); }
   OneStrip strip(Index s, bool ascending) const;
@@ -69,14 +77,16 @@ class TileSweeps final : public Sweeps {
 
   void send_all();
   void sweep_all(const Way& way);
+  double sweep_by(unsigned member, const Way& way, Steps& steps);
   void renew(const Strip& strip, const OneStrip& before, const Way& way);
-  void work_on(const Pass& pass, unsigned member);
+  void work_on(const Pass& pass, Index member, Index members);
   void add(const Products& products, double* lanes);
   void put_sums(const Strip& strip, Index piece, double* lanes);
 
   const TileAccess& tiles_;
   Index pieces_;
   core::Team team_;
+  core::Attendance attendance_;
   CacheLines room_[2];
   Eigen::Map<ColumnMatrix> up_,
       sent_;               ///< columns x stride: received from unknowns after, in other rows of tiles; so far
