@@ -52,6 +52,8 @@ class MeasurementSampler {
   std::optional<raycast::Ray> ray(core::RandomNumbers& numbers) const;
   /// That of all others.
   Receiver receiver(core::RandomNumbers& numbers) const { return place_->draw(numbers); }
+  /// Of that [1/m²]; 0 of a point.
+  double pdf_area() const { return place_->pdf_area(); }
 
  private:
   double scale_ = 1;

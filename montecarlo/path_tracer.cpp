@@ -4,42 +4,27 @@
 #include <limits>
 #include <numeric>
 
-#include "montecarlo/measurement_sampler.h"
-#include "montecarlo/rare_light.h"
-#include "montecarlo/sampling.h"
+#include "montecarlo/prepared_measurements.h"
 #include "montecarlo/scene_paths.h"
 
 namespace interflect::montecarlo {
 
 namespace {
 
-SamplingSettings sampling_of(const PathTracerSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
-}
-
-class PathTraced final : public SampledMeasurements {
+class PathTraced final : public PreparedMeasurements {
  public:
   PathTraced(const PathEstimator& paths, std::span<const measure::Measurement> asked, NextEvent next_event)
-      : paths_(paths), rare_(paths.scene(), paths.classes(), next_event) {
-    measured_.reserve(asked.size());
-    for (const measure::Measurement& each : asked) measured_.emplace_back(paths.scene(), each);
-  }
-  const scene::Scene& scene() const override { return paths_.scene(); }
+      : PreparedMeasurements(paths.scene(), asked, {paths.scene(), paths.classes(), next_event}), paths_(paths) {}
   std::string name() const override { return "path tracer"; }
   std::string doing() const override { return "path tracing"; }
-  std::size_t size() const override { return measured_.size(); }
-  double scale(std::size_t m) const override { return measured_[m].scale(); }
   Spectrum largest_score() const override { return paths_.largest_score(); }
-  const RareLights* rare_lights() const override { return rare_.empty() ? nullptr : &rare_; }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
-    measured_[m].sample(paths_, {seed, stream, first}, samples);
+    measured(m).sample(paths_, {seed, stream, first}, samples);
   }
 
  private:
   const PathEstimator& paths_;
-  RareLights rare_;
-  std::vector<MeasurementSampler> measured_;
 };
 
 }  // namespace
@@ -61,8 +46,7 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
   require_found(*this, scene, asked, settings_.paths);
   const PathEstimator paths(scene, caster, settings_.paths, settings_.next_event);
   const PathTraced measurements(paths, asked, settings_.next_event);
-  if (paths.lights().empty())
-    return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  if (paths.lights().empty()) return dark_answers(asked.size());
   return sampled_answers(measurements, sampling_of(settings_), paths.lights().flux(), run);
 }
 

@@ -68,6 +68,11 @@ struct SamplingSettings {
   std::uint64_t max_samples;
   SampleReport* report = nullptr;  ///< to be added to
 };
+/// Those of an integrator, whose own have the same names.
+template <class Settings>
+SamplingSettings sampling_of(const Settings& of) {
+  return {of.samples, of.target, of.target_floor, of.max_samples, of.report};
+}
 /// @throws core::InputError  of `who`, for settings out of range
 void require_valid(const SamplingSettings& settings, const std::string& who);
 /// @param flux  of all lights [W | lm]
@@ -100,6 +105,11 @@ SamplingPlan plan_samples(const SampledMeasurements& measurements, const Samplin
 /// @throws core::Interrupted  as sample_all
 std::vector<Estimate> sampled_answers(const SampledMeasurements& measurements, const SamplingSettings& settings,
                                       const Spectrum& flux, Run& run);
+
+/// Where nothing emits: exactly dark, without a sample.
+inline std::vector<Estimate> dark_answers(std::size_t count) {
+  return std::vector<Estimate>(count, unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+}
 
 /// Mean irradiance of all surfaces that can reflect if the scene were closed and well mixed: Phi / sum A (1 - rho), in
 /// weighted channels [lx | W/m²].  A scale, not an answer.

@@ -50,7 +50,7 @@ struct FaceGrid {
 ///
 ///   F = 1/(2 pi) [ x/sqrt(1+x²) atan(y/sqrt(1+x²)) + y/sqrt(1+y²) atan(x/sqrt(1+y²)) ]
 ///
-/// @return in (-1/4, 1/4), odd in x and in y; pi is inside.  Test: tests/fem/hemicube.cpp
+/// @return in (-1/4, 1/4), odd in x and in y; pi is inside.  Test: tests/fem/hemicube_sight.cpp
 double factor_across(double x, double y);
 
 /// F from a point to [0, y] x [0, z] of a plane at distance 1 beside it, z along its normal:

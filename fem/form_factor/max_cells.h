@@ -26,8 +26,8 @@ namespace interflect::fem {
 ///   up z = height tan(1.035 t^0.598) / tan(1.035)
 ///
 /// whose J is 0.56 of that of equal cells on half a cube, and 0.76 of that of rows and columns of equal form factor
-/// there.  Other counts of rows and columns gain less than one per cent more.  Test: tests/fem/hemicube.cpp, where
-/// random triangles agree with the formula.
+/// there.  Other counts of rows and columns gain less than one per cent more.  Test: tests/fem/hemicube_sight.cpp,
+/// where random triangles agree with the formula.
 ///
 /// @param resolution  as many cells as HemicubeGrid::uniform has; even, at least 2   @throws core::PreconditionError
 HemicubeGrid max_cells(int resolution);

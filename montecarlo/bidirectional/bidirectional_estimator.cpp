@@ -50,6 +50,22 @@ double BidirectionalEstimator::pdf_arriving(std::uint32_t light, double pdf_way,
 
 void BidirectionalEstimator::walk_from_light(core::RandomNumbers& numbers, LightWalk& walk) const {
   walk.vertices.clear();
+  Sent going = set_out(numbers, walk.start);
+  if (going.flux.is_zero()) return;  // and not where it is no number
+  for (std::uint32_t block = first_light_vertex;; block += blocks_per_light_vertex) {
+    const std::optional<LightVertex> x = arrive(walk.start, going);
+    if (!x) return;
+    walk.vertices.push_back(*x);
+    if (x->bsdf == nullptr) return;
+    numbers.jump(block);
+    const double lobe = numbers.next(), u = numbers.next(), v = numbers.next(), survival = numbers.next();
+    const std::optional<Scattered> on = x->bsdf->sample(x->back, {lobe, u, v}, Walk::from_light);
+    if (!on || !goes_on(*x, *on, survival, going)) return;
+  }
+}
+
+/// From a light that is picked.
+BidirectionalEstimator::Sent BidirectionalEstimator::set_out(core::RandomNumbers& numbers, LightStart& start) const {
   numbers.jump(light_block);
   const auto [light, pick] = emissions_.pick(numbers.next());
   std::array<double, 4> u;
@@ -57,54 +73,54 @@ void BidirectionalEstimator::walk_from_light(core::RandomNumbers& numbers, Light
   const Light& of = lights_[light];
   const Emission emission = of.sample_emission(u);
   const bool afar = of.is_infinite();
-  walk.start = {light,
-                emission.position,
-                emission.normal,
-                emission.way,
-                pick * (afar ? emission.pdf_solid_angle : emission.pdf_area),
-                afar ? emission.pdf_area : emission.pdf_solid_angle};
-  Spectrum flux = emission.weight / pick;
-  const double at_first = flux.max();
-  if (flux.is_zero()) return;  // and not where it is no number
+  start = {light,
+           emission.position,
+           emission.normal,
+           emission.way,
+           pick * (afar ? emission.pdf_solid_angle : emission.pdf_area),
+           afar ? emission.pdf_area : emission.pdf_solid_angle};
+  Sent going;
+  going.ray = {emission.position, emission.way, afar ? Vec3(Vec3::Zero()) : emission.normal};
+  going.leaves = light;
+  going.flux = emission.weight / pick;
+  going.at_first = going.flux.max();
+  going.letters = paths_.after(paths_.before_light(), letter_of(of));
+  return going;
+}
 
-  raycast::Ray ray{emission.position, emission.way, afar ? Vec3(Vec3::Zero()) : emission.normal};
-  std::optional<std::uint32_t> leaves = light;
-  std::optional<Departure> departure;  // none: straight from the light
-  PathClasses::FromLight letters = paths_.after(paths_.before_light(), letter_of(of));
-  int vertices = 2;
-  for (std::uint32_t block = first_light_vertex;; block += blocks_per_light_vertex) {
-    const auto hit = sight_.met(ray, std::exchange(leaves, std::nullopt)).surface;
-    if (!hit) return;
-    LightVertex x;
-    x.hit = *hit;
-    x.position = hit->position;
-    x.frame = frame_around(front_normal(*hit));
-    x.back = x.to_local(-ray.direction);
-    x.bsdf = optics_.bsdf(hit->surface);
-    x.letters = letters;
-    x.vertices = vertices;
-    const double cosine = std::abs(x.back.z());
-    if (cosine == 0) return;  // G = 0
-    x.pdf_area = departure ? departure->pdf_area(x.position, cosine)
-                           : pdf_arriving(light, walk.start.pdf_way, walk.start.position, x.position, cosine);
-    x.carried = flux = carried_to(flux, x.pdf_area);
-    x.weights = departure ? departure->arrived(x.position, x.pdf_area) : first_weights(walk.start, x, x.place());
-    walk.vertices.push_back(x);
-    if (x.bsdf == nullptr) return;
-    numbers.jump(block);
-    const double lobe = numbers.next(), a = numbers.next(), b = numbers.next(), survival = numbers.next();
-    const auto on = x.bsdf->sample(x.back, {lobe, a, b}, Walk::from_light);
-    if (!on) return;
-    flux *= on->weight;
-    const double survives = going_on(flux.max() / at_first);
-    if (!(survival < survives)) return;
-    flux /= survives;
-    ray = {x.position, x.frame.to_world(on->way), x.side(on->way)};
-    if (on->straight) continue;
-    departure = departure_of(x, *on);
-    letters = paths_.after(letters, letter_of(*x.bsdf, *on));
-    vertices = x.vertices + 1;
-  }
+/// @return  nothing where it meets no surface, or one that it lies within
+std::optional<LightVertex> BidirectionalEstimator::arrive(const LightStart& start, Sent& going) const {
+  const auto hit = sight_.met(going.ray, std::exchange(going.leaves, std::nullopt)).surface;
+  if (!hit) return std::nullopt;
+  LightVertex x;
+  x.hit = *hit;
+  x.position = hit->position;
+  x.frame = frame_around(front_normal(*hit));
+  x.back = x.to_local(-going.ray.direction);
+  x.bsdf = optics_.bsdf(hit->surface);
+  x.letters = going.letters;
+  x.vertices = going.vertices;
+  const double cosine = std::abs(x.back.z());
+  if (cosine == 0) return std::nullopt;  // G = 0
+  const std::optional<Departure>& departure = going.departure;
+  x.pdf_area = departure ? departure->pdf_area(x.position, cosine)
+                         : pdf_arriving(start.light, start.pdf_way, start.position, x.position, cosine);
+  x.carried = going.flux = carried_to(going.flux, x.pdf_area);
+  x.weights = departure ? departure->arrived(x.position, x.pdf_area) : first_weights(start, x, x.place());
+  return x;
+}
+
+bool BidirectionalEstimator::goes_on(const LightVertex& x, const Scattered& on, double survival, Sent& going) const {
+  going.flux *= on.weight;
+  const double survives = going_on(going.flux.max() / going.at_first);
+  if (!(survival < survives)) return false;
+  going.flux /= survives;
+  going.ray = {x.position, x.frame.to_world(on.way), x.side(on.way)};
+  if (on.straight) return true;
+  going.departure = departure_of(x, on);
+  going.letters = paths_.after(going.letters, letter_of(*x.bsdf, on));
+  going.vertices = x.vertices + 1;
+  return true;
 }
 
 /// a_1 and b_1: c is what picks for that place draw x_0 with over emission; a light that is delta is met by no walk.

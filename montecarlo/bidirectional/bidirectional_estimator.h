@@ -74,6 +74,16 @@ class BidirectionalEstimator {
     PathClasses::FromEye letters;  ///< of the walk so far, without what is done here
     bool receives = false;         ///< the eye's own end: no letter
   };
+  /// A walk from a light on its way.
+  struct Sent {
+    raycast::Ray ray{};
+    std::optional<std::uint32_t> leaves;  ///< the light that it has just left
+    std::optional<Departure> departure;   ///< none: straight from the light
+    Spectrum flux;
+    double at_first = 0;  ///< of the flux
+    PathClasses::FromLight letters = 0;
+    int vertices = 2;
+  };
   /// A walk from the eye on its way.
   struct Going {
     raycast::Ray ray{};
@@ -85,6 +95,10 @@ class BidirectionalEstimator {
     PathClasses::FromEye letters = 0;
     int vertices = 1;
   };
+
+  Sent set_out(core::RandomNumbers& numbers, LightStart& start) const;
+  std::optional<LightVertex> arrive(const LightStart& start, Sent& going) const;
+  bool goes_on(const LightVertex& x, const Scattered& on, double survival, Sent& going) const;
 
   void follow(EyeVertex at, Going going, const LightWalk& light, core::RandomNumbers& numbers, std::uint32_t block,
               Spectrum& found) const;

@@ -7,8 +7,7 @@
 #include "montecarlo/bidirectional/bidirectional_film.h"
 #include "montecarlo/measurable.h"
 #include "montecarlo/measured_patches.h"
-#include "montecarlo/receiver_sampler.h"
-#include "montecarlo/sampling.h"
+#include "montecarlo/prepared_measurements.h"
 #include "montecarlo/scene_paths.h"
 
 namespace interflect::montecarlo {
@@ -16,37 +15,26 @@ namespace {
 
 constexpr std::uint32_t walk_block = 2;  ///< of the eye's walk, after its place
 
-SamplingSettings sampling_of(const BidirectionalTracerSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
-}
-
 constexpr const char* who = "bidirectional path tracer";
 constexpr const char* what = "bidirectional path tracing";
 
-/// A patch, a flux or a point.
-struct Sensor {
-  explicit Sensor(const measure::Measurement& asked) : place(asked), scale(scale_of(asked)), patches({&asked, 1}) {}
-  ReceiverSampler place;
-  double scale;
-  MeasuredPatches patches;
-};
-
-class Joined final : public SampledMeasurements {
+/// Patches, fluxes and points.
+class Joined final : public PreparedMeasurements {
  public:
-  Joined(const BidirectionalEstimator& walks, const measure::PathClasses& paths)
-      : walks_(walks), rare_(walks.scene(), paths), section_(pi / 4 * walks.scene().box().diagonal().squaredNorm()) {}
-  void add(const measure::Measurement& asked) { sensors_.emplace_back(asked); }
-
-  const scene::Scene& scene() const override { return walks_.scene(); }
+  Joined(const BidirectionalEstimator& walks, std::span<const measure::Measurement> asked,
+         const measure::PathClasses& paths)
+      : PreparedMeasurements(walks.scene(), asked, {walks.scene(), paths}),
+        walks_(walks),
+        section_(pi / 4 * walks.scene().box().diagonal().squaredNorm()) {
+    patches_.reserve(asked.size());
+    for (const measure::Measurement& each : asked) patches_.emplace_back(std::span(&each, 1));
+  }
   std::string name() const override { return who; }
   std::string doing() const override { return what; }
-  std::size_t size() const override { return sensors_.size(); }
-  double scale(std::size_t m) const override { return sensors_[m].scale; }
   Spectrum largest_score() const override { return walks_.largest_score(); }
-  const RareLights* rare_lights() const override { return rare_.empty() ? nullptr : &rare_; }
   /// Patches are met by the light's walk too: from afar by their share of the scene's cross-section.
   double finds_otherwise(std::size_t m) const override {
-    const double pdf_area = sensors_[m].place.pdf_area();
+    const double pdf_area = measured(m).pdf_area();
     return pdf_area == 0 ? 0 : std::min(1.0, 1 / (pdf_area * section_));
   }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
@@ -56,28 +44,27 @@ class Joined final : public SampledMeasurements {
     for (std::size_t k = 0; k < samples.size(); ++k) {
       core::RandomNumbers numbers(seed, stream, first + k);
       walks_.walk_from_light(numbers, light);
-      samples[k] = of_walks(sensors_[m], light, numbers, shares);
+      samples[k] = of_walks(m, light, numbers, shares);
     }
   }
 
  private:
-  Spectrum of_walks(const Sensor& sensor, const LightWalk& light, core::RandomNumbers& numbers,
+  Spectrum of_walks(std::size_t m, const LightWalk& light, core::RandomNumbers& numbers,
                     std::vector<MeasuredPatches::Share>& shares) const {
-    const double pdf_area = sensor.place.pdf_area();
-    const Receiver at = sensor.place.draw(numbers);
-    Spectrum found = sensor.scale * walks_.irradiance(at, pdf_area, light, numbers, walk_block);
+    const double pdf_area = measured(m).pdf_area();
+    const Receiver at = measured(m).receiver(numbers);
+    Spectrum found = scale(m) * walks_.irradiance(at, pdf_area, light, numbers, walk_block);
     if (pdf_area == 0) return found;
     for (std::size_t x = 0; x < light.vertices.size(); ++x) {
-      sensor.patches.at(light.vertices[x].hit, shares);
+      patches_[m].at(light.vertices[x].hit, shares);
       for (const auto& [measurement, per_flux] : shares) found += per_flux * walks_.arrival(light, x, pdf_area);
     }
     return found;
   }
 
   const BidirectionalEstimator& walks_;
-  RareLights rare_;
   double section_;
-  std::vector<Sensor> sensors_;
+  std::vector<MeasuredPatches> patches_;  ///< of each alone
 };
 
 /// The pixels of one camera that are asked for, and which measurements they are.
@@ -157,6 +144,23 @@ void answer_film(const BidirectionalEstimator& walks, scene::CameraId camera, co
   }
 }
 
+/// All that are no pixels, into `estimates`.
+void answer_places(const BidirectionalEstimator& walks, std::span<const measure::Measurement> asked,
+                   const BidirectionalTracerSettings& settings, Run& run, std::vector<Estimate>& estimates) {
+  std::vector<measure::Measurement> places;
+  std::vector<std::size_t> of;
+  for (std::size_t m = 0; m < asked.size(); ++m)
+    if (!std::holds_alternative<measure::PixelRadiance>(asked[m])) places.push_back(asked[m]), of.push_back(m);
+  if (places.empty()) return;
+  SamplingSettings sampling = sampling_of(settings);
+  SampleReport report;
+  sampling.report = &report;
+  const Joined joined(walks, places, settings.paths);
+  const auto found = sampled_answers(joined, sampling, walks.lights().flux(), run);
+  if (settings.report != nullptr) settings.report->add(report, of);
+  for (std::size_t k = 0; k < of.size(); ++k) estimates[of[k]] = found[k];
+}
+
 }  // namespace
 
 /// Light of points needs two places in a row that walks can be joined at, or one before a point or pixel, or the first;
@@ -173,20 +177,9 @@ std::vector<Estimate> BidirectionalTracer::answer(const scene::Scene& scene,
   require_found(*this, scene, asked, settings_.paths);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const BidirectionalEstimator walks(scene, *caster, settings_.paths, settings_.only);
-  std::vector<Estimate> estimates(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  std::vector<Estimate> estimates = dark_answers(asked.size());
   if (walks.dark()) return estimates;
-  Joined joined(walks, settings_.paths);
-  std::vector<std::size_t> of;
-  for (std::size_t m = 0; m < asked.size(); ++m)
-    if (!std::holds_alternative<measure::PixelRadiance>(asked[m])) joined.add(asked[m]), of.push_back(m);
-  if (!of.empty()) {
-    SamplingSettings sampling = sampling_of(settings_);
-    SampleReport report;
-    sampling.report = &report;
-    const auto found = sampled_answers(joined, sampling, walks.lights().flux(), run);
-    if (settings_.report != nullptr) settings_.report->add(report, of);
-    for (std::size_t k = 0; k < of.size(); ++k) estimates[of[k]] = found[k];
-  }
+  answer_places(walks, asked, settings_, run, estimates);
   for (const auto& [camera, pixels] : pixels_of(scene, asked))
     answer_film(walks, {camera}, pixels, sampling_of(settings_), run, estimates);
   return estimates;

@@ -7,9 +7,8 @@
 #include "core/control_variate.h"
 #include "core/error.h"
 #include "montecarlo/controlled/controlled_paths.h"
-#include "montecarlo/measurement_sampler.h"
 #include "montecarlo/path_tracer.h"
-#include "montecarlo/sampling.h"
+#include "montecarlo/prepared_measurements.h"
 #include "montecarlo/scene_paths.h"
 
 namespace interflect::montecarlo {
@@ -23,20 +22,15 @@ struct Expected {
   double c = 1;
 };
 
-class ControlledMeasurements final : public SampledMeasurements {
+class ControlledMeasurements final : public PreparedMeasurements {
  public:
   ControlledMeasurements(const ControlledPaths& paths, std::span<const measure::Measurement> asked)
-      : paths_(paths), rare_(scene(), paths.paths().classes()), expected_(asked.size()) {
-    measured_.reserve(asked.size());
-    for (const measure::Measurement& each : asked) measured_.emplace_back(scene(), each);
-  }
-  const scene::Scene& scene() const override { return paths_.paths().scene(); }
+      : PreparedMeasurements(paths.paths().scene(), asked, {paths.paths().scene(), paths.paths().classes()}),
+        paths_(paths),
+        expected_(asked.size()) {}
   std::string name() const override { return "controlled paths"; }
   std::string doing() const override { return "controlled path tracing"; }
-  std::size_t size() const override { return measured_.size(); }
-  double scale(std::size_t m) const override { return measured_[m].scale(); }
   Spectrum largest_score() const override { return paths_.largest_score(); }
-  const RareLights* rare_lights() const override { return rare_.empty() ? nullptr : &rare_; }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
     std::vector<Spectrum> light(samples.size());
@@ -83,7 +77,7 @@ class ControlledMeasurements final : public SampledMeasurements {
   }
 
   void trace(std::size_t m, const PathEstimator::Keys& keys, std::span<ControlledPaths::Found> found) const {
-    const MeasurementSampler& measured = measured_[m];
+    const MeasurementSampler& of = measured(m);
     const auto starts = [&](auto start_of) {
       std::vector<decltype(start_of(std::declval<core::RandomNumbers&>()))> all;
       all.reserve(found.size());
@@ -93,19 +87,17 @@ class ControlledMeasurements final : public SampledMeasurements {
       }
       return all;
     };
-    if (measured.is_pixel()) {
-      const auto rays = starts([&](core::RandomNumbers& numbers) { return measured.ray(numbers); });
+    if (of.is_pixel()) {
+      const auto rays = starts([&](core::RandomNumbers& numbers) { return of.ray(numbers); });
       paths_.radiance(rays, keys, path_block, found);
       return;
     }
-    const auto places = starts([&](core::RandomNumbers& numbers) { return measured.receiver(numbers); });
+    const auto places = starts([&](core::RandomNumbers& numbers) { return of.receiver(numbers); });
     paths_.irradiance(places, keys, path_block, expected_[m].irradiance, found);
-    for (ControlledPaths::Found& each : found) each.path *= measured.scale(), each.control *= measured.scale();
+    for (ControlledPaths::Found& each : found) each.path *= of.scale(), each.control *= of.scale();
   }
 
   const ControlledPaths& paths_;
-  RareLights rare_;
-  std::vector<MeasurementSampler> measured_;
   std::vector<Expected> expected_;
 };
 
@@ -136,8 +128,7 @@ std::vector<Estimate> Controlled::answer(const scene::Scene& scene, std::span<co
   require_found(*this, scene, asked, settings_.paths);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const ControlledPaths paths(scene, *caster, settings_.solution, settings_.paths);
-  if (paths.paths().lights().empty())
-    return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  if (paths.paths().lights().empty()) return dark_answers(asked.size());
   ControlledMeasurements measurements(paths, asked);
   measurements.learn(paths_of_pilot(settings_.samples), run);
   return sampled_answers(measurements, sampling_of(settings_), paths.paths().lights().flux(), run);

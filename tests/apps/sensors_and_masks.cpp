@@ -5,27 +5,12 @@
 #include "tests/apps/factor_tables.h"
 #include "tests/apps/geometry_texts.h"
 #include "tests/apps/program.h"
+#include "tests/support/direct_light.h"
 
 namespace interflect::test {
 namespace {
 
-struct Row {
-  double x, y, blocked;
-};
-/// docs/truths.md 2.9: a square source two metres up, a square blocker of the same size one metre up.
-const std::vector<Row> table = {{0, 0, 0},
-                                {.5, 0, 0},
-                                {.6, 0, .007557182366},
-                                {.75, 0, .017821902089},
-                                {1, 0, .029443796377},
-                                {1.25, 0, .033623897844},
-                                {1.5, 0, .032663265537},
-                                {2, 0, .020278199912},
-                                {1, 1, .029028221206},
-                                {.75, .75, .024093099852},
-                                {1.25, .25, .032909077393},
-                                {1.4, 1.4, .020596516308}};
-
+/// The source and the blocker of `direct_light`, and a sensor at each of its points.
 std::string shadow_scene(double scale) {
   const auto square = [&](double height) {
     const double a = 0.5 * scale, z = height * scale;
@@ -33,8 +18,8 @@ std::string shadow_scene(double scale) {
                         -a, a, z, a, a, z, a, -a, z);
   };
   std::string points;
-  for (const Row& row : table)
-    points += core::format("%s[%.17g, %.17g, 0]", points.empty() ? "" : ", ", scale * row.x, scale * row.y);
+  for (const DirectLight& row : direct_light)
+    points += core::format("%s[%.17g, %.17g, 0]", points.empty() ? "" : ", ", scale * row.x.x(), scale * row.x.y());
   return R"({ "format": "interflect/scene/1", "units": "m", "quantity": "radiometric", "channels": ["y"], "weights": [1],
   "materials": { "grey": { "type": "diffuse", "sides": "front", "reflectance": 0.5 } },
   "geometry": [ { "name": "source", "material": "grey", "polygon": )" +
@@ -54,9 +39,9 @@ TEST(PointViewFactors, of_sensors_in_a_scene_file_are_the_exact_penumbra) {
     const std::string text = read_file(folder / "F.sensors.csv");
     EXPECT_TRUE(text.starts_with("sensor,index,j,F,error\n")) << text;
     auto F = entries_of(text);
-    for (std::size_t k = 0; k < table.size(); ++k) {
+    for (std::size_t k = 0; k < direct_light.size(); ++k) {
       const TableEntry entry = F[{"row," + std::to_string(k), "0"}];
-      EXPECT_NEAR(entry.F, table[k].blocked, entry.error + 1e-12) << k << " at scale " << scale;
+      EXPECT_NEAR(entry.F, direct_light[k].blocked, entry.error + 1e-12) << k << " at scale " << scale;
       EXPECT_LT(entry.error, 1e-14);
     }
     for (const char* name : {"F.mtx", "F.npz", "G.csv"}) {

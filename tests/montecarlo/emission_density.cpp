@@ -169,33 +169,51 @@ scene::EnvironmentMap some_map() {
   return {Vec3::UnitY(), -Vec3::UnitZ(), 6, 8, std::move(texels)};
 }
 
-std::vector<Named> all_kinds() {
+/// Of all of them: what they bring, where they are, and where they shine.
+const Spectrum shines(2);
+const Vec3 corner(1, 2, 3), aim = Vec3(1, 2, 2) / 3;
+
+void add_surfaces(std::vector<Named>& kinds) {
+  const Vec3 a = corner, p = Vec3(2, 1, -.5), q = Vec3(-.3, 1.2, 2), beside = p.cross(q).cross(p).normalized();
+  const std::array triangle{a, Vec3(a + p), Vec3(a + q)};
+  kinds.push_back({"triangle", std::make_unique<TriangleLight>(triangle, p.cross(q).normalized(), shines),
+                   flat_chart(a, p, q, true)});
+  kinds.push_back({"rectangle", std::make_unique<RectangleLight>(a, p, beside, p.cross(beside).normalized(), shines),
+                   flat_chart(a, p, beside, false)});
+  kinds.push_back(
+      {"sphere", std::make_unique<BallLight>(scene::SphereLight{"ball", a, .7, shines}), ball_chart(a, .7)});
+}
+
+void add_points(std::vector<Named>& kinds) {
+  kinds.push_back({"point", std::make_unique<PointSource>(scene::PointLight{"point", corner, shines}),
+                   point_chart(corner, Vec3::UnitZ(), 2)});
+  for (const auto& [beam, field] : {std::pair(.9, .6), std::pair(.5, .5), std::pair(1., -.5)})
+    kinds.push_back({"spot of " + std::to_string(beam),
+                     std::make_unique<Spot>(scene::SpotLight{"spot", corner, aim, shines, beam, field}),
+                     point_chart(corner, aim, 1 - field)});
+}
+
+void add_from_afar(std::vector<Named>& kinds) {
   static const scene::EnvironmentMap map = some_map();
-  std::vector<Named> kinds;
-  const Spectrum E(2);
-  const Vec3 a(1, 2, 3), p = Vec3(2, 1, -.5), q = Vec3(-.3, 1.2, 2), axis = Vec3(1, 2, 2) / 3;
-  const Vec3 beside = p.cross(q).cross(p).normalized();
-  const auto add = [&](std::string name, auto light, Chart chart) {
+  const auto add = [&](std::string name, std::unique_ptr<Light> light, Chart chart) {
     kinds.push_back({std::move(name), std::move(light), std::move(chart)});
   };
-  add("triangle", std::make_unique<TriangleLight>(std::array{a, Vec3(a + p), Vec3(a + q)}, p.cross(q).normalized(), E),
-      flat_chart(a, p, q, true));
-  add("rectangle", std::make_unique<RectangleLight>(a, p, beside, p.cross(beside).normalized(), E),
-      flat_chart(a, p, beside, false));
-  add("sphere", std::make_unique<BallLight>(scene::SphereLight{"ball", a, .7, E}), ball_chart(a, .7));
-  add("point", std::make_unique<PointSource>(scene::PointLight{"point", a, E}), point_chart(a, Vec3::UnitZ(), 2));
-  for (const auto& [beam, field] : {std::pair(.9, .6), std::pair(.5, .5), std::pair(1., -.5)})
-    add("spot of " + std::to_string(beam), std::make_unique<Spot>(scene::SpotLight{"spot", a, axis, E, beam, field}),
-        point_chart(a, axis, 1 - field));
   for (const double angle : {scene::Sun::seen_from_earth, .3}) {
-    const scene::Sun sun{"sun", axis, E, angle};
+    const scene::Sun sun{"sun", aim, shines, angle};
     add("sun of " + std::to_string(angle), std::make_unique<SunLight>(sun, box),
-        afar_chart(-axis, 2 * std::pow(std::sin(angle / 2), 2)));
+        afar_chart(-aim, 2 * std::pow(std::sin(angle / 2), 2)));
   }
-  add("parallel sun", std::make_unique<SunLight>(scene::Sun{"sun", axis, E, 0}, box), parallel_chart(axis));
-  add("sky", std::make_unique<SkyLight>(scene::Sky{axis, E, {}}, box), afar_chart(axis, 1));
-  add("sky and ground", std::make_unique<SkyLight>(scene::Sky{axis, E, E / 2}, box), afar_chart(axis, 2));
+  add("parallel sun", std::make_unique<SunLight>(scene::Sun{"sun", aim, shines, 0}, box), parallel_chart(aim));
+  add("sky", std::make_unique<SkyLight>(scene::Sky{aim, shines, {}}, box), afar_chart(aim, 1));
+  add("sky and ground", std::make_unique<SkyLight>(scene::Sky{aim, shines, shines / 2}, box), afar_chart(aim, 2));
   add("map", std::make_unique<EnvironmentLight>(map, box), map_chart(map));
+}
+
+std::vector<Named> all_kinds() {
+  std::vector<Named> kinds;
+  add_surfaces(kinds);
+  add_points(kinds);
+  add_from_afar(kinds);
   return kinds;
 }
 

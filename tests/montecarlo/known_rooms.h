@@ -4,6 +4,7 @@
 
 #include "montecarlo/integrators.h"
 #include "tests/montecarlo/statistics.h"
+#include "tests/support/direct_light.h"
 #include "tests/support/shapes.h"
 
 /// Scenes with what is true of them.  Truths: docs/truths.md 2.0, 2.1, 2.6, 2.9, or derived beside the scene.
@@ -103,21 +104,6 @@ inline geometry::PlanarPolygon level_square(double half_side, double z, bool up)
 /// 2.9: square source (half side 1/2) at height 2, square blocker (half side 1/2) at height 1; the floor, and points on
 /// it in the umbra, in the penumbra and outside of both.
 inline KnownScene penumbra_of_a_square() {
-  struct Point {
-    double x, y, F;
-  };
-  static constexpr std::array<Point, 12> points{{{0, 0, 0},
-                                                 {0.5, 0, 0},
-                                                 {0.6, 0, .007557182366},
-                                                 {0.75, 0, .017821902089},
-                                                 {1, 0, .029443796377},
-                                                 {1.25, 0, .033623897844},
-                                                 {1.5, 0, .032663265537},
-                                                 {2, 0, .020278199912},
-                                                 {1, 1, .029028221206},
-                                                 {.75, .75, .024093099852},
-                                                 {1.25, .25, .032909077393},
-                                                 {1.4, 1.4, .020596516308}}};
   scene::SceneBuilder builder({"grey"});
   const auto black = builder.add_material(diffuse("m", 0, 0));
   builder.add_polygon("source", level_square(0.5, 2, false), builder.add_material(diffuse("m", 0, 1)));
@@ -125,7 +111,8 @@ inline KnownScene penumbra_of_a_square() {
   const auto floor = builder.add_polygon("floor", level_square(2, 0, true), black);
   KnownScene known{"penumbra", builder.finish(), {}};
   known.questions = {whole(known.scene, "floor", 0.021573468864)};
-  for (const Point& p : points) known.questions.push_back(at_point({p.x, p.y, 0}, Vec3::UnitZ(), p.F, floor));
+  for (const DirectLight& row : direct_light)
+    known.questions.push_back(at_point(row.x, Vec3::UnitZ(), row.blocked, floor));
   return known;
 }
 

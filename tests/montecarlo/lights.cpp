@@ -56,101 +56,96 @@ std::optional<Vec3> on_plane(const Vec3& x, const Vec3& way, const Vec3& corner,
   return t > 0 && way.dot(normal) < 0 ? std::optional<Vec3>(x + t * way) : std::nullopt;
 }
 
+const Spectrum shines = colour(2, 5);
+
+/// A plane that is parallel to none of the axes.
+struct Askew {
+  Vec3 n = Vec3(1, -2, -3).normalized(), s = n.cross(Vec3::UnitX()).normalized(), t = n.cross(s);
+  Vec3 corner{1, 2, 3};
+};
+Named triangle_from(double d) {
+  const Askew plane;
+  const std::array<Vec3, 3> corner{plane.corner, plane.corner + 2 * plane.t + plane.s, plane.corner + 1.5 * plane.s};
+  const Vec3 up = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+  const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3, x = middle + d * up + .1 * plane.t;
+  const auto met = [=](const Vec3& way) -> std::optional<Vec3> {
+    const auto y = on_plane(x, way, corner[0], up);
+    if (!y) return y;
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((corner[(k + 1) % 3] - corner[k]).cross(*y - corner[k]).dot(up) < 0) return std::nullopt;
+    return y;
+  };
+  return {"triangle", std::make_unique<TriangleLight>(corner, up, shines),
+          {x, -up},   met,
+          -up,        d > 1 ? 1 - d / std::hypot(d, 2.2) : 1};
+}
+Named rectangle_from(double d) {
+  const Askew plane;
+  const Vec3 a = plane.corner, s = plane.s, t = plane.t, u = 2 * s, v = 1.2 * t, down = -u.cross(v).normalized(),
+             x = a + u / 2 + v / 3 + d * down;
+  const auto met = [=](const Vec3& way) -> std::optional<Vec3> {
+    const auto y = on_plane(x, way, a, down);
+    if (!y) return y;
+    const double p = (*y - a).dot(s), q = (*y - a).dot(t);
+    return p >= 0 && p <= 2 && q >= 0 && q <= 1.2 ? y : std::nullopt;
+  };
+  return {"rectangle", std::make_unique<RectangleLight>(a, u, v, down, shines),
+          {x, -down},  met,
+          -down,       d > 1 ? 1 - d / std::hypot(d, 1.3) : 1};
+}
+Named ball_from(double d) {
+  const scene::SphereLight ball{"ball", Vec3(0, 0, d), .5, shines};
+  const auto met = [=](const Vec3& way) -> std::optional<Vec3> {
+    Balls balls;
+    balls.add(ball.centre, ball.radius);
+    const auto hit = balls.closest(Vec3::Zero(), way, infinite);
+    return hit ? std::optional<Vec3>(hit->position) : std::nullopt;
+  };
+  return {"sphere",       std::make_unique<BallLight>(ball), {Vec3::Zero(), Vec3::UnitZ()}, met, Vec3::UnitZ(),
+          d < 1 ? 1 : .05};
+}
+/// Which arrives at a side that faces up, or as it says.
+void add_from_afar(std::vector<Named>& kinds) {
+  static const scene::EnvironmentMap map = some_map(), turned = some_map(Vec3::UnitY());
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ(), sunward = Vec3(1, 1, 2).normalized();
+  const scene::Sky sky{z, shines, {}}, ground{z, shines, colour(1, 1)};
+  const auto add = [&](const char* name, std::unique_ptr<Light> light, const Vec3& facing, const Vec3& axis,
+                       double cone) {
+    const auto anywhere = [](const Vec3&) { return std::optional<Vec3>(Vec3::Zero()); };
+    kinds.push_back({name, std::move(light), {Vec3::Zero(), facing}, anywhere, axis, cone});
+  };
+  add("sun", std::make_unique<SunLight>(scene::Sun{"sun", -sunward, shines}, unit_box), z, sunward, 1.5e-5);
+  add("sun", std::make_unique<SunLight>(scene::Sun{"wide", -sunward, shines, .3}, unit_box), z, sunward, .1);
+  add("sky", std::make_unique<SkyLight>(sky, unit_box), z, z, 1);
+  add("sky and ground", std::make_unique<SkyLight>(ground, unit_box), x, x, 1);
+  add("sky from both sides", std::make_unique<SkyLight>(ground, unit_box), Vec3::Zero(), z, 2);
+  add("map", std::make_unique<EnvironmentLight>(map, unit_box), z, z, 2);
+  add("map, y up", std::make_unique<EnvironmentLight>(turned, unit_box), z, y, 2);
+}
+
 /// Everything that draws ways with a density, near and far.
 std::vector<Named> all_kinds() {
-  static const scene::EnvironmentMap map = some_map(), turned = some_map(Vec3::UnitY());
   std::vector<Named> kinds;
-  const Spectrum E = colour(2, 5);
-  const Vec3 n = Vec3(1, -2, -3).normalized(), s = n.cross(Vec3::UnitX()).normalized(), t = n.cross(s);
-  const std::array<Vec3, 3> corner{Vec3(1, 2, 3), Vec3(1, 2, 3) + 2 * t + s, Vec3(1, 2, 3) + 1.5 * s};
-  const Vec3 up = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
   for (const double d : {.15, .5, 6.}) {
-    const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3, x = middle + d * up + .1 * t;
-    const auto met = [=](const Vec3& way) -> std::optional<Vec3> {
-      const auto y = on_plane(x, way, corner[0], up);
-      if (!y) return y;
-      for (std::size_t k = 0; k < 3; ++k)
-        if ((corner[(k + 1) % 3] - corner[k]).cross(*y - corner[k]).dot(up) < 0) return std::nullopt;
-      return y;
-    };
-    kinds.push_back({"triangle",
-                     std::make_unique<TriangleLight>(corner, up, E),
-                     {x, -up},
-                     met,
-                     -up,
-                     d > 1 ? 1 - d / std::hypot(d, 2.2) : 1});
-    const Vec3 a = Vec3(1, 2, 3), u = 2 * s, v = 1.2 * t, down = -u.cross(v).normalized(),
-               from = a + u / 2 + v / 3 + d * down;
-    const auto in_rectangle = [=](const Vec3& way) -> std::optional<Vec3> {
-      const auto y = on_plane(from, way, a, down);
-      if (!y) return y;
-      const double p = (*y - a).dot(s), q = (*y - a).dot(t);
-      return p >= 0 && p <= 2 && q >= 0 && q <= 1.2 ? y : std::nullopt;
-    };
-    kinds.push_back({"rectangle",
-                     std::make_unique<RectangleLight>(a, u, v, down, E),
-                     {from, -down},
-                     in_rectangle,
-                     -down,
-                     d > 1 ? 1 - d / std::hypot(d, 1.3) : 1});
+    kinds.push_back(triangle_from(d));
+    kinds.push_back(rectangle_from(d));
   }
-  for (const double d : {.51, 2.}) {
-    const scene::SphereLight ball{"ball", Vec3(0, 0, d), .5, E};
-    const auto met = [=](const Vec3& way) -> std::optional<Vec3> {
-      Balls balls;
-      balls.add(ball.centre, ball.radius);
-      const auto hit = balls.closest(Vec3::Zero(), way, infinite);
-      return hit ? std::optional<Vec3>(hit->position) : std::nullopt;
-    };
-    kinds.push_back({"sphere",
-                     std::make_unique<BallLight>(ball),
-                     {Vec3::Zero(), Vec3::UnitZ()},
-                     met,
-                     Vec3::UnitZ(),
-                     d < 1 ? 1 : .05});
-  }
-  const auto anywhere = [](const Vec3&) { return std::optional<Vec3>(Vec3::Zero()); };
-  const Vec3 sunward = Vec3(1, 1, 2).normalized();
-  kinds.push_back({"sun",
-                   std::make_unique<SunLight>(scene::Sun{"sun", -sunward, E}, unit_box),
-                   {Vec3::Zero(), Vec3::UnitZ()},
-                   anywhere,
-                   sunward,
-                   1.5e-5});
-  kinds.push_back({"sun",
-                   std::make_unique<SunLight>(scene::Sun{"wide", -sunward, E, .3}, unit_box),
-                   {Vec3::Zero(), Vec3::UnitZ()},
-                   anywhere,
-                   sunward,
-                   .1});
-  const scene::Sky sky{Vec3::UnitZ(), E, {}}, ground{Vec3::UnitZ(), E, colour(1, 1)};
-  kinds.push_back(
-      {"sky", std::make_unique<SkyLight>(sky, unit_box), {Vec3::Zero(), Vec3::UnitZ()}, anywhere, Vec3::UnitZ(), 1});
-  kinds.push_back({"sky and ground",
-                   std::make_unique<SkyLight>(ground, unit_box),
-                   {Vec3::Zero(), Vec3::UnitX()},
-                   anywhere,
-                   Vec3::UnitX(),
-                   1});
-  kinds.push_back({"sky from both sides",
-                   std::make_unique<SkyLight>(ground, unit_box),
-                   {Vec3::Zero(), Vec3::Zero()},
-                   anywhere,
-                   Vec3::UnitZ(),
-                   2});
-  kinds.push_back({"map",
-                   std::make_unique<EnvironmentLight>(map, unit_box),
-                   {Vec3::Zero(), Vec3::UnitZ()},
-                   anywhere,
-                   Vec3::UnitZ(),
-                   2});
-  kinds.push_back({"map, y up",
-                   std::make_unique<EnvironmentLight>(turned, unit_box),
-                   {Vec3::Zero(), Vec3::UnitZ()},
-                   anywhere,
-                   Vec3::UnitY(),
-                   2});
+  for (const double d : {.51, 2.}) kinds.push_back(ball_from(d));
+  add_from_afar(kinds);
   return kinds;
+}
+
+/// Whose ways or places have no density.
+void add_without_size(std::vector<Named>& kinds) {
+  const auto add = [&](const char* name, std::unique_ptr<Light> light, const Vec3& axis) {
+    kinds.push_back({name, std::move(light), {}, {}, axis, 2});
+  };
+  const Vec3 position(1, 2, 3), axis = Vec3(1, 2, 2) / 3;
+  add("point", std::make_unique<PointSource>(scene::PointLight{"p", position, colour(1, 2)}), Vec3::UnitZ());
+  for (const auto& [beam, field] : {std::pair(.9, .6), std::pair(.5, .5), std::pair(1., -.5)})
+    add("spot", std::make_unique<Spot>(scene::SpotLight{"s", position, axis, colour(1, 2), beam, field}), axis);
+  add("parallel", std::make_unique<SunLight>(scene::Sun{"s", Vec3(0, 0, -1), colour(1, 2), 0}, unit_box),
+      Vec3::UnitZ());
 }
 
 // Half a million ways fall where the pdf says; the pdf of a draw is that of its inverse; all of them integrate to 1.
@@ -200,26 +195,7 @@ TEST(Lights, draw_what_arrives_as_they_say) {
 // What leaves has the density that is said; its mean weight is the flux; and it arrives at what it passes as it should.
 TEST(Lights, send_out_as_they_say) {
   std::vector<Named> kinds = all_kinds();
-  kinds.push_back({"point",
-                   std::make_unique<PointSource>(scene::PointLight{"p", Vec3(1, 2, 3), colour(1, 2)}),
-                   {},
-                   {},
-                   Vec3::UnitZ(),
-                   2});
-  for (const auto& [beam, field] : {std::pair(.9, .6), std::pair(.5, .5), std::pair(1., -.5)})
-    kinds.push_back(
-        {"spot",
-         std::make_unique<Spot>(scene::SpotLight{"s", Vec3(1, 2, 3), Vec3(1, 2, 2) / 3, colour(1, 2), beam, field}),
-         {},
-         {},
-         Vec3(1, 2, 2) / 3,
-         2});
-  kinds.push_back({"parallel",
-                   std::make_unique<SunLight>(scene::Sun{"s", Vec3(0, 0, -1), colour(1, 2), 0}, unit_box),
-                   {},
-                   {},
-                   Vec3::UnitZ(),
-                   2});
+  add_without_size(kinds);
   std::uint32_t stream = 100;
   test::Family family(2 * kinds.size());
   for (const Named& of : kinds) {

@@ -7,6 +7,25 @@
 /// Rooms in which one method is held against another.
 namespace interflect::test {
 
+/// Of two channels.
+inline Spectrum both(double a, double b) {
+  Spectrum s = grey(a);
+  s[1] = b;
+  return s;
+}
+inline scene::Material diffuse(const std::string& name, const Spectrum& reflectance, const Spectrum& exitance) {
+  scene::Material material;
+  material.name = name, material.reflectance = reflectance, material.exitance = exitance;
+  return material;
+}
+/// Of both sides.
+inline scene::Material finished(scene::Finish finish, const Spectrum& reflectance = Spectrum::zero()) {
+  scene::Material material;
+  material.name = "m", material.finish = std::move(finish), material.reflectance = reflectance;
+  material.sides = scene::Sides::both;
+  return material;
+}
+
 inline geometry::PlanarPolygon parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v) {
   return {{corner, corner + u, corner + u + v, corner + v}, {}};
 }
@@ -16,9 +35,7 @@ inline scene::Scene furnished(double scale) {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   scene::SceneBuilder builder({"a", "b"});
   const auto of = [&](double a, double b, double lamp = 0) {
-    scene::Material material = diffuse("m", a, lamp);
-    material.reflectance[1] = b, material.exitance[1] = 2 * lamp;
-    return builder.add_material(material);
+    return builder.add_material(diffuse("m", both(a, b), both(lamp, 2 * lamp)));
   };
   const auto grey = of(.5, .3), bright = of(.8, .7), dark = of(.1, .2), lamp = of(.2, .6, 5);
   const auto add = [&](const char* name, const Vec3& corner, const Vec3& u, const Vec3& v, scene::MaterialId material) {
@@ -67,16 +84,7 @@ inline scene::Scene facing_squares() {
 inline scene::Scene lit_by_all() {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   scene::SceneBuilder builder({"a", "b"});
-  const auto wall = builder.add_material([] {
-    scene::Material material = diffuse("m", .5, 0);
-    material.reflectance[1] = .3;
-    return material;
-  }());
-  const auto both = [](double a, double b) {
-    Spectrum s = grey(a);
-    s[1] = b;
-    return s;
-  };
+  const auto wall = builder.add_material(diffuse("m", both(.5, .3), both(0, 0)));
   const auto add = [&](const char* name, const Vec3& corner, const Vec3& u, const Vec3& v) {
     builder.add_polygon(name, parallelogram(corner, u, v), wall);
   };
@@ -105,30 +113,30 @@ inline std::vector<measure::Measurement> all_of_lit(const scene::Scene& scene) {
   return asked;
 }
 
+/// A room of three by two by one metre, its walls alone.
+inline void add_walls(scene::SceneBuilder& builder) {
+  builder.add_box("room", {Vec3(0, 0, 0), Vec3(3, 2, 1)},
+                  builder.add_material(diffuse("wall", both(.5, .3), both(0, 0))), scene::SceneBuilder::Facing::inward);
+}
+/// On one of them.
+inline void add_mirror(scene::SceneBuilder& builder) {
+  builder.add_polygon("mirror", parallelogram(Vec3(.2, 1.98, .1), 1.2 * Vec3::UnitX(), .7 * Vec3::UnitZ()),
+                      builder.add_material(finished(scene::Mirror{both(.9, .7)})));
+}
+
 /// A room with every material: a mirror on a wall, a block of glass, a rough one, metal, plastic, a net, and small lamps.
 /// Five cameras look into it.
 inline scene::Scene shiny() {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   scene::SceneBuilder builder({"a", "b"});
-  const auto both = [](double a, double b) {
-    Spectrum s = grey(a);
-    s[1] = b;
-    return s;
-  };
   const auto of = [&](scene::Finish finish, const Spectrum& reflectance = Spectrum::zero()) {
-    scene::Material material;
-    material.name = "m", material.finish = std::move(finish), material.reflectance = reflectance;
-    material.sides = scene::Sides::both;
-    return builder.add_material(material);
+    return builder.add_material(finished(std::move(finish), reflectance));
   };
-  scene::Material wall = diffuse("wall", .5, 0), lamp = diffuse("lamp", .1, 40);
-  wall.reflectance[1] = .3, lamp.reflectance[1] = .3, lamp.exitance[1] = 20;
-  builder.add_box("room", {Vec3(0, 0, 0), Vec3(3, 2, 1)}, builder.add_material(wall),
-                  scene::SceneBuilder::Facing::inward);
-  const auto lamps = builder.add_material(lamp);
+  add_walls(builder);
+  const auto lamps = builder.add_material(diffuse("lamp", both(.1, .3), both(40, 20)));
   builder.add_polygon("lamp", parallelogram(Vec3(1.2, .6, .95), .2 * y, .3 * x), lamps);
   builder.add_polygon("other lamp", parallelogram(Vec3(2.6, 1.5, .9), .1 * y, .2 * x), lamps);
-  builder.add_polygon("mirror", parallelogram(Vec3(.2, 1.98, .1), 1.2 * x, .7 * z), of(scene::Mirror{both(.9, .7)}));
+  add_mirror(builder);
   builder.add_box("glass", {Vec3(2, .7, .2), Vec3(2.5, 1.2, .6)}, of(scene::Glass{1.5, 0}));
   builder.add_box("rough glass", {Vec3(.4, .2, .05), Vec3(.7, .5, .4)}, of(scene::Glass{1.5, .4}));
   builder.add_box("metal", {Vec3(1.1, .2, .05), Vec3(1.4, .5, .5)}, of(scene::Metal{both(.9, .6), .3}));

@@ -20,22 +20,11 @@ inline measure::SurfaceSolution says_everywhere(const Spectrum& reflected) {
 inline scene::Scene known_to_two_passes() {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   scene::SceneBuilder builder({"a", "b"});
-  const auto both = [](double a, double b) {
-    Spectrum s = grey(a);
-    s[1] = b;
-    return s;
-  };
-  const auto of = [&](scene::Finish finish) {
-    scene::Material material;
-    material.name = "m", material.finish = std::move(finish), material.sides = scene::Sides::both;
-    return builder.add_material(material);
-  };
-  scene::Material wall = diffuse("wall", .5, 0), lamp = diffuse("lamp", .1, 10);
-  wall.reflectance[1] = .3, lamp.reflectance[1] = .3, lamp.exitance[1] = 20;
-  builder.add_box("room", {Vec3(0, 0, 0), Vec3(3, 2, 1)}, builder.add_material(wall),
-                  scene::SceneBuilder::Facing::inward);
-  builder.add_polygon("lamp", parallelogram(Vec3(1.2, .6, .95), .4 * y, .6 * x), builder.add_material(lamp));
-  builder.add_polygon("mirror", parallelogram(Vec3(.2, 1.98, .1), 1.2 * x, .7 * z), of(scene::Mirror{both(.9, .7)}));
+  const auto of = [&](scene::Finish finish) { return builder.add_material(finished(std::move(finish))); };
+  add_walls(builder);
+  builder.add_polygon("lamp", parallelogram(Vec3(1.2, .6, .95), .4 * y, .6 * x),
+                      builder.add_material(diffuse("lamp", both(.1, .3), both(10, 20))));
+  add_mirror(builder);
   builder.add_polygon("pane", parallelogram(Vec3(1.9, .1, .05), 1.8 * y, .8 * z), of(scene::Pane{both(.3, .8)}));
   builder.add_box("glass", {Vec3(.8, .4, .1), Vec3(1.2, .8, .4)}, of(scene::Glass{1.5, 0}));
   builder.add_box("frosted", {Vec3(1.3, .2, .1), Vec3(1.6, .6, .4)}, of(scene::Glass{1.5, .4}));

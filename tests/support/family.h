@@ -21,7 +21,8 @@ inline double critical_z(double alpha, std::size_t comparisons) {
   return low;
 }
 
-/// Family alpha of every statistical test; the seed is fixed, so a test either always passes or never.
+/// Family alpha of a statistical test that states no other, as those of coverage do: 181 .. 197 of 200 intervals are
+/// missed by chance in .04 to .06.  Seeds are fixed, so that a test either always passes or never.
 inline constexpr double alpha = 1e-3;
 
 /// An alpha that a number of tails share alike, whether they depend on each other or not (Bonferroni): a number that may
