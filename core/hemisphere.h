@@ -62,7 +62,7 @@ inline Vec3 cosine_hemisphere(double u, double v) {
   return {r * cosine, r * sine, std::sqrt(1 - u)};
 }
 
-/// (u, v) of a direction.
+/// (u, v) of a direction: tests go there and back.
 inline Vec2 cosine_hemisphere_inverse(const Vec3& way) {
   return {way.x() * way.x() + way.y() * way.y(), turns_about_z(way)};
 }
@@ -95,7 +95,7 @@ inline double triangle_point_pdf_area(const Vec3& a, const Vec3& b, const Vec3& 
   return 2 / (b - a).cross(c - a).norm();
 }
 
-/// (u, v) of a point of the triangle's plane; of corner a, where all v meet, v = 0.
+/// (u, v) of a point of the triangle's plane, for tests too; of corner a, where all v meet, v = 0.
 inline Vec2 triangle_point_inverse(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point) {
   const Vec3 normal = (b - a).cross(c - a);
   const double to_b = (point - a).cross(c - a).dot(normal), to_c = (b - a).cross(point - a).dot(normal);

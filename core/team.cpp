@@ -52,10 +52,15 @@ Team::Team(unsigned members) {
   try {
     for (unsigned member = 1; member < members; ++member) others_.emplace_back([this, member] { serve(member); });
   } catch (const std::system_error&) {  // there are no more threads: a smaller team does the same work
+  } catch (...) {
+    dismiss();
+    throw;
   }
 }
 
-Team::~Team() {
+Team::~Team() { dismiss(); }
+
+void Team::dismiss() {
   body_ = nullptr;
   called_.fetch_add(1, std::memory_order_release);
   called_.notify_all();

@@ -40,6 +40,7 @@ class Team {
 
  private:
   void serve(unsigned member);
+  void dismiss();
 
   const std::function<void(unsigned)>* body_ = nullptr;  ///< null: no work any more
   std::atomic<Index> called_{0};                         ///< to work, so many times

@@ -17,7 +17,7 @@ struct Capabilities {
   bool unbiased = false;    ///< expected value right for any number of samples
   bool consistent = false;  ///< right in the limit of its refinement
   /// The paths that it finds, to what is asked.  Paths from points and spots straight into a pixel, `PS*E`, are nothing
-  /// to anyone: a point's own picture has no area.
+  /// to anyone: such lights are not seen, by convention (docs/lights.md).
   PathClasses to_patches = PathClasses::all();  ///< patches and fluxes
   PathClasses to_points = PathClasses::all();
   PathClasses to_pixels = PathClasses::all();

@@ -54,6 +54,7 @@ class MeasurementSampler {
   Receiver receiver(core::RandomNumbers& numbers) const { return place_->draw(numbers); }
   /// Of that [1/m²]; 0 of a point.
   double pdf_area() const { return place_->pdf_area(); }
+  geometry::Box box() const { return place_->box(); }
 
  private:
   double scale_ = 1;

@@ -25,7 +25,7 @@ PathEstimator::PathEstimator(const scene::Scene& scene, const raycast::RayCaster
       optics_(scene),
       sight_(caster, lights_, optics_),
       largest_score_(2 * lights_.largest_find()) {
-  if (!next_event_ || scatters_in(scene).specular) largest_score_ = max(largest_score_, lights_.brightest());
+  if (!next_event_) largest_score_ = max(largest_score_, lights_.brightest());
 }
 
 PathEstimator::Carried PathEstimator::from_eye() const {

@@ -66,8 +66,8 @@ class PathEstimator {
   const measure::PathClasses& classes() const { return paths_; }  ///< that count
 
   /// What one vertex of a path can add to an irradiance at most: where all is diffuse by the two techniques together
-  /// (beside points of light there is no such bound: LightSet::largest_find), and by a ray alone, behind a mirror or
-  /// without the other, all of a light's radiance.
+  /// (beside points of light there is no such bound: LightSet::largest_find), and by a ray alone all of a light's
+  /// radiance.  What is met behind a mirror may be more: of that RareLights knows.
   const Spectrum& largest_score() const { return largest_score_; }
 
  private:

@@ -23,7 +23,7 @@ class PathExposure final : public PixelExposure {
         filter_(filter),
         sequence_(core::make_sequence(settings.sequence, core::derived_seed(run.seed, "path tracer sequences"))),
         paths_(scene, caster, settings.paths, next_event),
-        seed_(core::derived_seed(run.seed, "path tracer pixels")) {}
+        seed_(core::derived_seed(run.seed, path_tracer_name(next_event) + " pixels")) {}
 
   Spectrum largest_score() const override { return paths_.largest_score(); }
 

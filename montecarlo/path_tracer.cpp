@@ -14,8 +14,10 @@ namespace {
 class PathTraced final : public PreparedMeasurements {
  public:
   PathTraced(const PathEstimator& paths, std::span<const measure::Measurement> asked, NextEvent next_event)
-      : PreparedMeasurements(paths.scene(), asked, {paths.scene(), paths.classes(), next_event}), paths_(paths) {}
-  std::string name() const override { return "path tracer"; }
+      : PreparedMeasurements(paths.scene(), asked, {paths.scene(), paths.lights(), paths.classes(), next_event}),
+        paths_(paths),
+        next_event_(next_event) {}
+  std::string name() const override { return path_tracer_name(next_event_); }
   std::string doing() const override { return "path tracing"; }
   Spectrum largest_score() const override { return paths_.largest_score(); }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
@@ -25,6 +27,7 @@ class PathTraced final : public PreparedMeasurements {
 
  private:
   const PathEstimator& paths_;
+  NextEvent next_event_;
 };
 
 }  // namespace
@@ -42,7 +45,7 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
 
 std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                          Run& run, const raycast::RayCaster& caster) const {
-  require_valid(sampling_of(settings_), "path tracer");
+  require_valid(sampling_of(settings_), path_tracer_name(settings_.next_event));
   require_found(*this, scene, asked, settings_.paths);
   const PathEstimator paths(scene, caster, settings_.paths, settings_.next_event);
   const PathTraced measurements(paths, asked, settings_.next_event);
@@ -52,7 +55,7 @@ std::vector<Estimate> PathTracer::answer(const scene::Scene& scene, std::span<co
 
 PathTracer::Trial PathTracer::trial(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                     Run& run) const {
-  require_valid(sampling_of(settings_), "path tracer");
+  require_valid(sampling_of(settings_), path_tracer_name(settings_.next_event));
   if (asked.empty()) return {};
   constexpr std::size_t trials = 64;
   std::vector<measure::Measurement> tried;  // evenly spread over the list

@@ -23,7 +23,10 @@ class PreparedMeasurements : public SampledMeasurements {
   const scene::Scene& scene() const final { return scene_; }
   std::size_t size() const final { return measured_.size(); }
   double scale(std::size_t m) const final { return measured_[m].scale(); }
-  const RareLights* rare_lights() const final { return rare_.empty() ? nullptr : &rare_; }
+  const RareLights& rare_lights() const final { return rare_; }
+  RareLights::From looks_from(std::size_t m) const override {
+    return {measured_[m].is_pixel() ? scene_.box() : measured_[m].box(), measured_[m].is_pixel()};
+  }
 
  protected:
   const MeasurementSampler& measured(std::size_t m) const { return measured_[m]; }

@@ -1,51 +1,72 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "measure/path_classes.h"
+#include "montecarlo/lamps.h"
 #include "montecarlo/next_event.h"
-#include "scene/scene.h"
+#include "montecarlo/sample_report.h"
 
 namespace interflect::montecarlo {
 
-/// Light of which chance alone tells: what small lights send by way of mirrors or smooth glass onto what is none.  No way
-/// can be drawn to it, and where no path has met it, samples know nothing of it.  Without next-event estimation all light is
-/// of that kind.
+/// Light of which chance alone tells: what small lights send by way of mirrors, smooth glass or nearly smooth metal onto
+/// what is none.  No way can be drawn to it, and where no path has met it, samples know nothing of it.  Without next-event
+/// estimation all light is of that kind.
 ///
-/// A find is pi L of irradiance.  Where n samples met none, a light may have brought 3 pi L / n (rule of three); a sun no
-/// more than H, what its image in a flat mirror gives.  A light counts as met where a path of the scene's size meets it a
-/// hundred times in n samples: ten times where it shines at a tenth of that, aslant or by a dark mirror.
+/// A find is pi L of irradiance.  Where n samples met none, the lamps of one radiance may have brought 3 pi L / n together
+/// (rule of three); a sun no more than H by each mirror, its image there.  A lamp counts as met where paths as long as is
+/// usual there meet it a hundred times in n samples: ten times where it shines at a tenth of that, aslant or by a dark
+/// mirror.  By way of a lobe of roughness alpha it is found by 4 alpha² of all paths at least, and a find is so much less.
 /// Test: tests/montecarlo/rare_light.cpp
 class RareLights {
  public:
-  /// @param paths  that count
-  RareLights(const scene::Scene& scene, const measure::PathClasses& paths, NextEvent next_event = NextEvent::yes);
+  /// Where paths begin that look for it.
+  struct From {
+    geometry::Box box;
+    bool pixel = false;   ///< what a mirror shows there is met by every path
+    double by_walks = 0;  ///< chance that a walk from a light meets it
+  };
+  /// The scene must outlive it.
+  /// @param lights  the scene's
+  /// @param paths   that count
+  RareLights(const scene::Scene& scene, const LightSet& lights, const measure::PathClasses& paths,
+             NextEvent next_event = NextEvent::yes);
   bool empty() const { return lights_.empty(); }
 
   /// What so many samples of an irradiance may lack, as a standard error [W/m² | lx].
-  /// @param otherwise  chance that a sample finds such light in another way
-  Spectrum lacks(std::uint64_t samples, double otherwise = 0) const;
+  Spectrum lacks(std::uint64_t samples, const From& from) const;
   /// Samples for which that is as little, weighed, as far as samples help.
-  double samples_for(double wanted, const scene::Scene& scene, double otherwise = 0) const;
-  /// "light of sun by way of mirrors or smooth glass is met by one path in 46223 or so, and 4096 were taken: .."
-  std::string text(const scene::Scene& scene, std::uint64_t samples) const;
+  double samples_for(double wanted, const From& from) const;
+  /// Of a measurement of that scale: as much into its standard errors; told where it is most of them, of the measurement
+  /// that has the fewest samples.
+  void add_to(Estimate& estimate, double scale, const From& from, SampleReport& report) const;
 
  private:
   struct RareLight {
-    std::string name;
-    double chance;         ///< that a path which leaves diffusely at the scene's radius from it meets it
-    bool anywhere;         ///< the same everywhere: a sun
-    Spectrum pi_radiance;  ///< pi L
-    double met_by(double otherwise) const { return std::max(chance, otherwise); }
-    double samples_to_meet(double otherwise) const { return 100 / met_by(otherwise); }
-    Spectrum find(double otherwise) const { return pi_radiance * (chance / met_by(otherwise)); }
-    Spectrum lacks(double samples, double otherwise) const;
+    AlikeLamps of;
+    bool to_places, to_pixels;
+    bool comes_to(const From& from) const { return from.pixel ? to_pixels : to_places; }
   };
-  std::vector<RareLight> lights_;
+  /// Of the lamp that is found least: that a path finds it; and of a find, how much of pi L it is at most.
+  struct Chance {
+    const Lamp* of;
+    double found, share;
+  };
+  void set_smooth();
+  std::string text(std::uint64_t samples, const From& from) const;
+  void add(std::vector<AlikeLamps> lamps, char letter, const measure::PathClasses& there);
+  double met(const Lamp& lamp, const From& from) const;
+  Chance chance(const RareLight& light, const From& from) const;
+  Spectrum lacks(const RareLight& light, double samples, const From& from) const;
+
+  const scene::Scene& scene_;
   bool by_mirrors_;
+  geometry::Box smooth_;  ///< around all that mirrors, or nearly
+  double images_ = 0;     ///< of a light, by one of them each, as far as chance alone finds them
+  double lobe_ = 1;       ///< part of all paths that the narrowest catches: 0 of a mirror, 1 where there is none
+  std::vector<RareLight> lights_;
 };
 
 }  // namespace interflect::montecarlo

@@ -27,6 +27,14 @@ void ReceiverSampler::set_regions(std::span<const scene::SurfacePatch> patches) 
   pdf_area_ = 1 / pick_.total();
 }
 
+geometry::Box ReceiverSampler::box() const {
+  if (regions_.empty()) return geometry::Box(point_.position);
+  geometry::Box box;
+  for (const Region& region : regions_)
+    for (std::size_t k = 0; k < region.patch.corners; ++k) box.extend(region.patch.corner[k]);
+  return box;
+}
+
 Receiver ReceiverSampler::at(double u, double v) const {
   if (regions_.empty()) return point_;
   double left = u * pick_.total();

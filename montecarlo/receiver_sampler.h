@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "geometry/box.h"
 #include "measure/measurement.h"
 #include "montecarlo/alias_table.h"
 #include "montecarlo/receiver.h"
@@ -22,6 +23,7 @@ class ReceiverSampler {
   Receiver at(double u, double v) const;
   /// Of that [1/m²]; 0 of a point.
   double pdf_area() const { return pdf_area_; }
+  geometry::Box box() const;
 
  private:
   struct Region {

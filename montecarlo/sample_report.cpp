@@ -14,8 +14,10 @@ void SampleReport::add(std::size_t measurement, const Tally& tally) {
 
 void SampleReport::add(const SampleReport& part, std::span<const std::size_t> of) {
   not_finite += part.not_finite;
-  if (!part.rare.empty() && (rare.empty() || part.rare_samples < rare_samples))
-    rare = part.rare, rare_samples = part.rare_samples;
+  if (!part.rare.empty() && (rare.empty() || part.rare_samples < rare_samples)) {
+    rare = part.rare;
+    rare_samples = part.rare_samples;
+  }
   for (const Heavy& each : part.heavy) heavy.push_back({of[each.measurement], each.share});
 }
 

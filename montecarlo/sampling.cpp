@@ -104,6 +104,14 @@ std::uint64_t samples_needed(const core::ScalarMoments& pilot, double scale, dou
   return static_cast<std::uint64_t>(std::ceil(std::min(n, static_cast<double>(target.most))));
 }
 
+std::uint64_t samples_for(const RareLights& rare, double scale, double mean, const RareLights::From& from,
+                          const SamplingTarget& target) {
+  const double wanted = target.standard_error(mean, scale) / scale;
+  if (!(wanted > 0)) return 0;
+  return static_cast<std::uint64_t>(
+      std::ceil(std::min(rare.samples_for(wanted, from), static_cast<double>(target.most))));
+}
+
 double mean_irradiance_scale(const scene::Scene& scene, const Spectrum& flux) {
   const double white = scene.weigh(Spectrum(1));
   double absorbing = 0;
@@ -113,37 +121,6 @@ double mean_irradiance_scale(const scene::Scene& scene, const Spectrum& flux) {
         absorbing += scene.area(id) * (1 - scene.weigh(scene.material(id).reflectance_of(side)) / white);
   return absorbing > 0 ? scene.weigh(flux) / absorbing : 0;
 }
-
-namespace {
-
-/// For which what they may lack is as little as the target, of a measurement of this weighted mean.
-std::uint64_t samples_for_what_is_rare(const SampledMeasurements& measurements, std::size_t m, double mean,
-                                       const SamplingTarget& target) {
-  const RareLights* rare = measurements.rare_lights();
-  const double scale = measurements.scale(m), wanted = target.standard_error(mean, scale) / scale;
-  if (rare == nullptr || !(wanted > 0)) return 0;
-  const double samples = rare->samples_for(wanted, measurements.scene(), measurements.finds_otherwise(m));
-  return static_cast<std::uint64_t>(std::ceil(std::min(samples, static_cast<double>(target.most))));
-}
-
-double combined(double a, double b) { return std::sqrt(a * a + b * b); }
-
-/// Into the standard error; told where it is most of that, of the measurement that has the fewest samples.
-void add_what_is_rare(const SampledMeasurements& measurements, std::size_t m, Estimate& estimate,
-                      SampleReport& report) {
-  const RareLights* rare = measurements.rare_lights();
-  if (rare == nullptr) return;
-  const Spectrum lacks = measurements.scale(m) * rare->lacks(estimate.samples, measurements.finds_otherwise(m));
-  for (int c = 0; c < Spectrum::capacity; ++c)
-    estimate.standard_error[c] = combined(estimate.standard_error[c], lacks[c]);
-  const double weighed = measurements.scene().weigh(lacks), known = estimate.weighed_standard_error;
-  estimate.weighed_standard_error = combined(known, weighed);
-  if (weighed == 0 || known > weighed || (!report.rare.empty() && report.rare_samples <= estimate.samples)) return;
-  report.rare = rare->text(measurements.scene(), estimate.samples);
-  report.rare_samples = estimate.samples;
-}
-
-}  // namespace
 
 SamplingPlan plan_samples(const SampledMeasurements& measurements, const SamplingTarget& target, Run& run) {
   const std::uint64_t first = core::derived_seed(run.seed, measurements.name() + " pilot"),
@@ -159,7 +136,7 @@ SamplingPlan plan_samples(const SampledMeasurements& measurements, const Samplin
     const auto needed = [&](std::uint64_t seed, std::uint64_t samples) {
       const core::ScalarMoments known = known_of(sample_block(measurements, m, seed, 0, samples));
       return std::max(samples_needed(known, scale, largest, target),
-                      samples_for_what_is_rare(measurements, m, known.mean(), target));
+                      samples_for(measurements.rare_lights(), scale, known.mean(), measurements.looks_from(m), target));
     };
     std::uint64_t n = needed(first, pilot_samples);
     if (const std::uint64_t more = std::min(n / 8, largest_pilot); more > pilot_samples) {
@@ -190,7 +167,7 @@ std::vector<Estimate> sampled_answers(const SampledMeasurements& measurements, c
     warn_of_bugs(tallies[m], measurements.name().c_str(), m, seed);
     report.add(m, tallies[m]);
     estimates.push_back(tallies[m].estimate(measurements.scale(m) * measurements.largest_score()));
-    add_what_is_rare(measurements, m, estimates.back(), report);
+    measurements.rare_lights().add_to(estimates.back(), measurements.scale(m), measurements.looks_from(m), report);
   }
   if (settings.samples == 0) warn_of_cap(measurements, target, estimates);
   return estimates;

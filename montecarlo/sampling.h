@@ -24,10 +24,10 @@ class SampledMeasurements {
   virtual double scale(std::size_t measurement) const = 0;
   /// Of a measurement of scale 1, what a single sample finds at most, or nearly so.
   virtual Spectrum largest_score() const = 0;
-  /// Light that samples find by chance alone; null where there is none.
-  virtual const RareLights* rare_lights() const { return nullptr; }
-  /// Chance that a sample of a measurement finds such light in another way.
-  virtual double finds_otherwise(std::size_t /*measurement*/) const { return 0; }
+  /// Light that samples find by chance alone.
+  virtual const RareLights& rare_lights() const = 0;
+  /// From where samples of a measurement look for it.
+  virtual RareLights::From looks_from(std::size_t measurement) const = 0;
   /// The samples first, first + 1, .. of a measurement, sample k by the numbers of (seed, stream, k).
   /// @param samples  overwritten
   virtual void sample(std::size_t measurement, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
@@ -88,6 +88,10 @@ SamplingTarget target_of(const SamplingSettings& settings, const scene::Scene& s
 /// @param largest_score  w, in the measurement's unit, weighed
 std::uint64_t samples_needed(const core::ScalarMoments& pilot, double scale, double largest_score,
                              const SamplingTarget& target);
+
+/// For which what they may lack is as little as the target, of a measurement of this weighted mean.
+std::uint64_t samples_for(const RareLights& rare, double scale, double mean, const RareLights::From& from,
+                          const SamplingTarget& target);
 
 struct SamplingPlan {
   std::vector<std::uint64_t> counts;  ///< samples per measurement

@@ -15,8 +15,8 @@ measure::PathClasses paths_in(const scene::Scene& scene);
 /// What its surfaces do with light, any of them.
 Scatters scatters_in(const scene::Scene& scene);
 
-/// Those of them that bring something to what is asked: what comes from points, spots and parallel light into a
-/// pixel by mirrors alone, `(P|B)S*E`, brings nothing, since their pictures have no area.
+/// Those of them that bring something to what is asked.  Points, spots and parallel light are not seen, as they are nor
+/// in mirrors: that is a convention (docs/lights.md), which leaves `(P|B)S*E` out of pixels.
 measure::PathClasses that_reach(const measure::Measurement& asked, const measure::PathClasses& paths);
 
 /// @throws core::InputError  if the method misses paths of `wanted` that there may be in the scene, to some of what is

@@ -16,6 +16,8 @@ class Sight {
   /// All must outlive it.
   Sight(const raycast::RayCaster& caster, const LightSet& lights, const SurfaceOptics& optics)
       : caster_(caster), lights_(lights), optics_(optics) {}
+  Sight(const Sight&) = delete;  // who has it has what it looks at, and would leave that behind
+  Sight& operator=(const Sight&) = delete;
 
   /// What a ray meets first: a surface, a ball that shines, or neither.
   struct Met {

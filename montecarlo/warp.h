@@ -3,7 +3,7 @@
 #include "core/hemisphere.h"
 #include "scene/place.h"
 
-/// Uniform numbers in [0, 1)² turned into directions and points.  Every pdf says its measure.
+/// Uniform numbers in [0, 1)² turned into directions and points.  Every pdf says its measure; inverses are for tests.
 namespace interflect::montecarlo {
 
 using core::cosine_hemisphere;

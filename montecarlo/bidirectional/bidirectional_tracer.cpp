@@ -23,7 +23,7 @@ class Joined final : public PreparedMeasurements {
  public:
   Joined(const BidirectionalEstimator& walks, std::span<const measure::Measurement> asked,
          const measure::PathClasses& paths)
-      : PreparedMeasurements(walks.scene(), asked, {walks.scene(), paths}),
+      : PreparedMeasurements(walks.scene(), asked, {walks.scene(), walks.lights(), paths}),
         walks_(walks),
         section_(pi / 4 * walks.scene().box().diagonal().squaredNorm()) {
     patches_.reserve(asked.size());
@@ -33,9 +33,11 @@ class Joined final : public PreparedMeasurements {
   std::string doing() const override { return what; }
   Spectrum largest_score() const override { return walks_.largest_score(); }
   /// Patches are met by the light's walk too: from afar by their share of the scene's cross-section.
-  double finds_otherwise(std::size_t m) const override {
-    const double pdf_area = measured(m).pdf_area();
-    return pdf_area == 0 ? 0 : std::min(1.0, 1 / (pdf_area * section_));
+  RareLights::From looks_from(std::size_t m) const override {
+    RareLights::From from = PreparedMeasurements::looks_from(m);
+    if (const double pdf_area = measured(m).pdf_area(); pdf_area > 0)
+      from.by_walks = std::min(1.0, 1 / (pdf_area * section_));
+    return from;
   }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
@@ -104,16 +106,22 @@ std::vector<Tally> tallies_of(const BidirectionalFilm& film, std::uint64_t count
   return tallies;
 }
 
+/// Walks from lights are seen by one pixel as often as by another, as far as is known.
+RareLights::From looks_from(const scene::Scene& scene, const scene::Camera& camera) {
+  return {scene.box(), true, 1 / (static_cast<double>(camera.width) * camera.height)};
+}
+
 /// How many sweeps all pixels need, by pilots that are thrown away, as plan_samples does it.
-std::uint64_t sweeps_needed(const BidirectionalEstimator& walks, const scene::Camera& camera, const Pixels& asked,
-                            const ReconstructionFilter& filter, const std::string& purpose,
+std::uint64_t sweeps_needed(const BidirectionalEstimator& walks, const RareLights& rare, const scene::Camera& camera,
+                            const Pixels& asked, const ReconstructionFilter& filter, const std::string& purpose,
                             const SamplingTarget& target, Run& run) {
   const double largest = inv_pi * walks.scene().weigh(walks.largest_score());
   const auto by_pilot = [&](std::uint64_t size, const char* which) {
     const BidirectionalFilm film(walks, camera, asked.pixels, filter, core::derived_seed(run.seed, purpose + which));
     std::uint64_t most = 0;
     for (const Tally& pilot : tallies_of(film, size, walks.scene(), "bidirectional pilot", run))
-      most = std::max(most, samples_needed(pilot.weighed, inv_pi, largest, target));
+      most = std::max({most, samples_needed(pilot.weighed, inv_pi, largest, target),
+                       samples_for(rare, inv_pi, pilot.weighed.mean(), looks_from(walks.scene(), camera), target)});
     run.throw_if_stopped(what);
     return most;
   };
@@ -122,24 +130,28 @@ std::uint64_t sweeps_needed(const BidirectionalEstimator& walks, const scene::Ca
 }
 
 /// The pixels of one camera, into `estimates`.
-void answer_film(const BidirectionalEstimator& walks, scene::CameraId camera, const Pixels& asked,
-                 const SamplingSettings& settings, Run& run, std::vector<Estimate>& estimates) {
+void answer_film(const BidirectionalEstimator& walks, const measure::PathClasses& paths, scene::CameraId camera,
+                 const Pixels& asked, const SamplingSettings& settings, Run& run, std::vector<Estimate>& estimates) {
   const scene::Scene& scene = walks.scene();
   const auto filter = make_filter("box");
   const std::string purpose = core::format("%s film %u", who, camera.value);
   const SamplingTarget target = target_of(settings, scene, walks.lights().flux(), fewest_samples);
-  const std::uint64_t count = settings.samples > 0
-                                  ? settings.samples
-                                  : sweeps_needed(walks, scene.camera(camera), asked, *filter, purpose, target, run),
+  const RareLights rare(scene, walks.lights(), paths);
+  const std::uint64_t count = settings.samples > 0 ? settings.samples
+                                                   : sweeps_needed(walks, rare, scene.camera(camera), asked, *filter,
+                                                                   purpose, target, run),
                       seed = core::derived_seed(run.seed, purpose);
   const BidirectionalFilm film(walks, scene.camera(camera), asked.pixels, *filter, seed);
   const auto tallies = tallies_of(film, count, scene, what, run);
+  SampleReport ignored;
+  SampleReport& report = settings.report != nullptr ? *settings.report : ignored;
   for (std::size_t p = 0; p < tallies.size(); ++p) {
     if (tallies[p].moments.count() < 2) run.throw_if_stopped(what);
     for (const std::size_t m : asked.measurements[p]) {
       warn_of_bugs(tallies[p], what, m, seed);
-      if (settings.report != nullptr) settings.report->add(m, tallies[p]);
+      report.add(m, tallies[p]);
       estimates[m] = tallies[p].estimate(inv_pi * walks.largest_score());
+      rare.add_to(estimates[m], inv_pi, looks_from(scene, scene.camera(camera)), report);
     }
   }
 }
@@ -181,7 +193,7 @@ std::vector<Estimate> BidirectionalTracer::answer(const scene::Scene& scene,
   if (walks.dark()) return estimates;
   answer_places(walks, asked, settings_, run, estimates);
   for (const auto& [camera, pixels] : pixels_of(scene, asked))
-    answer_film(walks, {camera}, pixels, sampling_of(settings_), run, estimates);
+    answer_film(walks, settings_.paths, {camera}, pixels, sampling_of(settings_), run, estimates);
   return estimates;
 }
 

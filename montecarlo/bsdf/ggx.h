@@ -37,7 +37,7 @@ class Ggx {
     const Vec3 h = x * s + y * t + std::sqrt(std::max(0.0, 1 - x * x - y * y)) * stretched;
     return Vec3(a_ * h.x(), a_ * h.y(), std::max(0.0, h.z())).normalized();
   }
-  /// (u, w) of a normal that is seen from v.  Round trip: 1e-12 of u and of sqrt(u) w.
+  /// (u, w) of a normal that is seen from v: tests go there and back.  Round trip: 1e-12 of u and of sqrt(u) w.
   Vec2 inverse(const Vec3& v, const Vec3& h) const {
     const auto [s, t, towards_v, lift] = seen_from(v);
     const Vec3 on_ball = Vec3(h.x() / a_, h.y() / a_, h.z()).normalized();

@@ -25,7 +25,8 @@ struct Expected {
 class ControlledMeasurements final : public PreparedMeasurements {
  public:
   ControlledMeasurements(const ControlledPaths& paths, std::span<const measure::Measurement> asked)
-      : PreparedMeasurements(paths.paths().scene(), asked, {paths.paths().scene(), paths.paths().classes()}),
+      : PreparedMeasurements(paths.paths().scene(), asked,
+                             {paths.paths().scene(), paths.paths().lights(), paths.paths().classes()}),
         paths_(paths),
         expected_(asked.size()) {}
   std::string name() const override { return "controlled paths"; }

@@ -30,7 +30,7 @@ class ReconstructionFilter {
   virtual Vec2 sample(double u, double v) const = 0;
   /// With the density h- / int h-.  @pre  negative() > 0
   virtual Vec2 sample_negative(double u, double v) const;
-  /// (u, v) of an offset that `sample` draws, and of one that `sample_negative` does.  Round trip: 1e-12.
+  /// (u, v) of an offset that `sample` draws, and of one that `sample_negative` does, for tests.  Round trip: 1e-12.
   virtual Vec2 inverse(const Vec2& offset) const = 0;
   virtual Vec2 inverse_negative(const Vec2& offset) const;
 };

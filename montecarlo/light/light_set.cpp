@@ -134,10 +134,13 @@ void LightSet::set_largest() {
     for (int c = 0; c < Spectrum::capacity; ++c)
       least[c] = p > 0 ? std::min(find.pi_radiance[c], find.arriving[c] / p) : 0;
     const Spectrum by_ray = lights_[l]->is_delta() ? Spectrum::zero() : find.pi_radiance;
-    if (l < nearby_)
-      nearby = max(nearby, least), brightest_ = max(brightest_, by_ray);
-    else
-      afar += least, rays_afar += by_ray;  // a ray that escapes sees them all
+    if (l < nearby_) {
+      nearby = max(nearby, least);
+      brightest_ = max(brightest_, by_ray);
+    } else {  // a ray that escapes sees them all
+      afar += least;
+      rays_afar += by_ray;
+    }
   }
   largest_ = max(nearby, afar);
   brightest_ = max(brightest_, rays_afar);

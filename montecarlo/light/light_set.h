@@ -60,7 +60,7 @@ class LightSet {
   /// An irradiance that one sample can find at most by one technique, except beside points of light: of those it is what
   /// they give at a tenth of the scene's radius, over the probability of their pick by power.
   const Spectrum& largest_find() const { return largest_; }
-  /// pi L of the brightest that a ray can meet: an irradiance that one sample can find by a mirror.
+  /// pi L of the brightest that a ray can meet: an irradiance that one sample can find by a ray alone.
   const Spectrum& brightest() const { return brightest_; }
 
  private:

@@ -7,11 +7,10 @@
 #include "montecarlo/measurable.h"
 #include "montecarlo/path_letters.h"
 #include "montecarlo/pixel_exposure.h"
+#include "montecarlo/prepared_measurements.h"
 #include "montecarlo/ray_tree/ray_tree.h"
-#include "montecarlo/receiver_sampler.h"
 #include "montecarlo/render.h"
 #include "montecarlo/roulette.h"
-#include "montecarlo/sampling.h"
 #include "montecarlo/scene_paths.h"
 #include "scene/film_map.h"
 
@@ -24,31 +23,22 @@ constexpr double always_followed = 0.1;  ///< from this weight on
 constexpr std::uint32_t film_block = 0, lens_block = 1, first_vertex_block = 2, blocks_per_vertex = 6,
                         second_tree_block = 1u << 30;
 
-SamplingSettings sampling_of(const DistributedSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
-}
-
-class Trees final : public SampledMeasurements {
+class Trees final : public PreparedMeasurements {
  public:
-  Trees(const scene::Scene& scene, const raycast::RayCaster& caster, const measure::PathClasses& paths,
-        std::span<const measure::Measurement> asked = {})
-      : tree_(scene, caster, paths) {
-    for (const measure::Measurement& each : asked) measured_.emplace_back(scene, each);
-  }
+  /// The tree must outlive them.
+  Trees(const RayTree& tree, const measure::PathClasses& paths, std::span<const measure::Measurement> asked = {})
+      : PreparedMeasurements(tree.scene(), asked, {tree.scene(), tree.lights(), paths}), tree_(tree) {}
 
   bool dark() const { return tree_.lights().empty(); }
   const LightSet& lights() const { return tree_.lights(); }
-  const scene::Scene& scene() const override { return tree_.scene(); }
   std::string name() const override { return "distributed ray tracer"; }
   std::string doing() const override { return "distributed ray tracing"; }
-  std::size_t size() const override { return measured_.size(); }
-  double scale(std::size_t m) const override { return measured_[m].scale; }
   Spectrum largest_score() const override { return 2 * tree_.lights().largest_find(); }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
     for (std::size_t k = 0; k < samples.size(); ++k) {
       core::RandomNumbers numbers(seed, stream, first + k);
-      samples[k] = sample(measured_[m], numbers);
+      samples[k] = sample(m, numbers);
     }
   }
   /// One of the pixel with that middle.
@@ -61,28 +51,11 @@ class Trees final : public SampledMeasurements {
     return filtered(filter, middle, a, b, [&](const Vec2& at, bool second) {
       const auto ray = film.ray(at, scene::uniform_disk(r, turn));
       if (!ray) return Spectrum::zero();
-      Branch root;
-      root.ray = {ray->origin, ray->direction};
-      root.letters = tree_.at_eye();
-      return seen(root, numbers, second ? second_tree_block : first_vertex_block);
+      return seen({ray->origin, ray->direction}, numbers, second ? second_tree_block : first_vertex_block);
     });
   }
 
  private:
-  struct Measured {
-    Measured(const scene::Scene& scene, const measure::Measurement& asked) : scale(scale_of(asked)) {
-      if (const auto* pixel = std::get_if<measure::PixelRadiance>(&asked)) {
-        film.emplace(scene.camera(pixel->camera));
-        middle = Vec2(pixel->x + .5, pixel->y + .5);
-      } else {
-        place.emplace(asked);
-      }
-    }
-    double scale;
-    std::optional<ReceiverSampler> place;
-    std::optional<scene::FilmMap> film;
-    Vec2 middle = Vec2::Zero();
-  };
   struct Branch {
     raycast::Ray ray{};
     Spectrum weight{1};
@@ -92,17 +65,21 @@ class Trees final : public SampledMeasurements {
     double pdf_solid_angle = 0;              ///< of that; 0: there is none but this
   };
 
-  Spectrum sample(const Measured& of, core::RandomNumbers& numbers) const {
-    if (of.place) {
-      const Receiver at = of.place->draw(numbers);
-      numbers.jump(first_vertex_block);
-      return of.scale * pi *
-             lit({at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_}, tree_.at_eye(), false, numbers);
+  Spectrum sample(std::size_t m, core::RandomNumbers& numbers) const {
+    if (measured(m).is_pixel()) {
+      const auto ray = measured(m).ray(numbers);
+      return ray ? seen(*ray, numbers, first_vertex_block) : Spectrum::zero();
     }
-    return of_pixel(*of.film, *box_, of.middle, numbers);
+    const Receiver at = measured(m).receiver(numbers);
+    numbers.jump(first_vertex_block);
+    return scale(m) * pi *
+           lit({at.position, frame_around(at.normal), Vec3::UnitZ(), &receiver_}, tree_.at_eye(), false, numbers);
   }
 
-  Spectrum seen(const Branch& root, core::RandomNumbers& numbers, std::uint32_t block) const {
+  Spectrum seen(const raycast::Ray& from_eye, core::RandomNumbers& numbers, std::uint32_t block) const {
+    Branch root;
+    root.ray = from_eye;
+    root.letters = tree_.at_eye();
     Spectrum found{};
     std::vector<Branch> branches{root};
     for (; !branches.empty(); block += blocks_per_vertex) {
@@ -164,9 +141,7 @@ class Trees final : public SampledMeasurements {
     return found->scattered / (probability * found->by_light + (rays_find_it_too ? found->by_bsdf : 0));
   }
 
-  RayTree tree_;
-  std::vector<Measured> measured_;
-  std::unique_ptr<ReconstructionFilter> box_ = make_filter("box");
+  const RayTree& tree_;
   Lambert receiver_{Spectrum(1)};
 };
 
@@ -178,7 +153,8 @@ class DistributedExposure final : public PixelExposure {
         camera_(camera),
         map_(camera),
         filter_(filter),
-        trees_(scene, caster, settings.paths),
+        tree_(scene, caster, settings.paths),
+        trees_(tree_, settings.paths),
         seed_(core::derived_seed(run.seed, "distributed ray tracer pixels")) {}
 
   Spectrum largest_score() const override { return trees_.largest_score(); }
@@ -195,6 +171,7 @@ class DistributedExposure final : public PixelExposure {
   const scene::Camera& camera_;
   scene::FilmMap map_;
   const ReconstructionFilter& filter_;
+  RayTree tree_;
   Trees trees_;
   std::uint64_t seed_;
 };
@@ -216,9 +193,9 @@ std::vector<Estimate> Distributed::answer(const scene::Scene& scene, std::span<c
   for (const measure::Measurement& each : asked) require_measurable(scene, each);
   require_found(*this, scene, asked, settings_.paths);
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
-  const Trees trees(scene, *caster, settings_.paths, asked);
-  if (trees.dark())
-    return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  const RayTree tree(scene, *caster, settings_.paths);
+  const Trees trees(tree, settings_.paths, asked);
+  if (trees.dark()) return dark_answers(asked.size());
   return sampled_answers(trees, sampling_of(settings_), trees.lights().flux(), run);
 }
 

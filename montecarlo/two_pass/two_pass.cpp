@@ -7,9 +7,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "montecarlo/measurement_sampler.h"
 #include "montecarlo/path_tracer.h"
-#include "montecarlo/sampling.h"
+#include "montecarlo/prepared_measurements.h"
 #include "montecarlo/scene_paths.h"
 #include "montecarlo/two_pass/two_pass_estimator.h"
 
@@ -31,37 +30,34 @@ TwoPassEstimator::Walked walked_by(const MeasurementSampler& measured, const Two
   return walked;
 }
 
-class TwoPassed final : public SampledMeasurements {
+class TwoPassed final : public PreparedMeasurements {
  public:
   TwoPassed(const TwoPassEstimator& at_places, const TwoPassEstimator& at_pixels,
             const measure::SurfaceSolution& solution, std::span<const measure::Measurement> asked)
-      : at_places_(at_places), at_pixels_(at_pixels), solution_(solution) {
-    measured_.reserve(asked.size());
-    for (const measure::Measurement& each : asked) measured_.emplace_back(at_places.paths().scene(), each);
-  }
-  const scene::Scene& scene() const override { return at_places_.paths().scene(); }
+      : PreparedMeasurements(at_places.paths().scene(), asked,
+                             {at_places.paths().scene(), at_places.paths().lights(), at_places.paths().classes()}),
+        at_places_(at_places),
+        at_pixels_(at_pixels),
+        solution_(solution) {}
   std::string name() const override { return "two-pass"; }
   std::string doing() const override { return "second pass"; }
-  std::size_t size() const override { return measured_.size(); }
-  double scale(std::size_t m) const override { return measured_[m].scale(); }
   Spectrum largest_score() const override { return at_places_.paths().largest_score(); }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
               std::span<Spectrum> samples) const override {
-    measured_[m].sample(of(m).paths(), {seed, stream, first}, samples);
+    measured(m).sample(of(m).paths(), {seed, stream, first}, samples);
     const std::uint64_t of_solution = core::derived_seed(seed, "solution");
     for (std::size_t k = 0; k < samples.size(); ++k)
       samples[k] += answered_to(m, {of_solution, stream, first + k}).value;
   }
   Answered answered_to(std::size_t m, core::RandomNumbers numbers) const {
-    return answered(solution_, walked_by(measured_[m], of(m), numbers));
+    return answered(solution_, walked_by(measured(m), of(m), numbers));
   }
 
  private:
-  const TwoPassEstimator& of(std::size_t m) const { return measured_[m].is_pixel() ? at_pixels_ : at_places_; }
+  const TwoPassEstimator& of(std::size_t m) const { return measured(m).is_pixel() ? at_pixels_ : at_places_; }
 
   const TwoPassEstimator &at_places_, &at_pixels_;
   const measure::SurfaceSolution& solution_;
-  std::vector<MeasurementSampler> measured_;
 };
 
 /// The solution's part in an answer's errors, by walks of their own.
@@ -137,7 +133,11 @@ void require_two_passes(const scene::Scene& scene, const measure::SurfaceSolutio
 
 measure::Capabilities TwoPass::capabilities() const {
   const auto finds = measure::PathClasses::of("A.*E");
-  return {.unbiased = false, .consistent = true, .to_patches = finds, .to_points = finds, .to_pixels = finds};
+  return {.unbiased = false,
+          .consistent = false,  // the solution's error stays, whatever the target
+          .to_patches = finds,
+          .to_points = finds,
+          .to_pixels = finds};
 }
 
 std::vector<Estimate> TwoPass::answer(const scene::Scene& scene, std::span<const measure::Measurement> asked,
@@ -148,8 +148,7 @@ std::vector<Estimate> TwoPass::answer(const scene::Scene& scene, std::span<const
   const auto caster = raycast::make_ray_caster(settings_.intersector, scene);
   const TwoPassEstimator at_places(scene, *caster, 0), at_pixels(scene, *caster, 1);
   const TwoPassed measurements(at_places, at_pixels, settings_.solution, asked);
-  if (at_places.paths().lights().empty())
-    return std::vector<Estimate>(asked.size(), unbiased_estimate(Spectrum::zero(), Spectrum::zero(), 0));
+  if (at_places.paths().lights().empty()) return dark_answers(asked.size());
   std::vector<Estimate> found =
       sampled_answers(measurements, sampling_of(settings_), at_places.paths().lights().flux(), run);
   add_errors(measurements, found, run);

@@ -24,9 +24,9 @@ struct TwoPassSettings {
 /// for what is seen in mirrors, through glass and by glossy surfaces (two_pass_estimator.h).  Patches and points gather
 /// once by what they are; pixels do, so that no element shows.
 ///
-/// Not unbiased: the error bound is the mean of the solution's where walks end, and the standard error has the solution's
-/// noise beside that of sampling.
-/// Not of plastics and nets, whose diffuse part solutions do not know, nor of lights beside surfaces.
+/// Not unbiased, nor consistent, as the solution is given and its error stays, whatever the target: the error bound is
+/// the mean of the solution's where walks end, and the standard error has the solution's noise beside that of
+/// sampling.  Not of plastics and nets, whose diffuse part solutions do not know, nor of lights beside surfaces.
 class TwoPass final : public measure::Method {
  public:
   explicit TwoPass(TwoPassSettings settings) : settings_(std::move(settings)) {}

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "core/error.h"
 #include "montecarlo/integrators.h"
 #include "tests/montecarlo/statistics.h"
@@ -62,12 +64,14 @@ TEST(ParallelLight, is_found_by_way_of_a_mirror_or_refused) {
 TEST(ParallelLight, that_comes_straight_is_found_by_all) {
   const scene::Scene scene = test::sun_and_mirror(1, 0);
   const auto asked = test::asked_of_sun_and_mirror(scene, 1);
-  for (const char* name : {"path", "bidirectional", "light", "distributed", "whitted"}) {
+  const std::array<const char*, 5> names{"path", "bidirectional", "light", "distributed", "whitted"};
+  test::Family family(names.size() * 2 * 2);
+  for (const char* name : names) {
     const Estimate flux = answer(name, scene, asked.flux, "LE"), point = answer(name, scene, asked.point, "LE"),
                    pixel = answer(name, scene, asked.pixel, "LDE");
-    EXPECT_NEAR(flux.value[0], .8, 5 * flux.standard_error[0] + 1e-9) << name;
+    EXPECT_NEAR(flux.value[0], .8, family.z() * flux.standard_error[0] + 1e-9) << name;
     EXPECT_NEAR(point.value[0], .8, 1e-9) << name;
-    EXPECT_NEAR(pixel.value[0], .5 * .8 * inv_pi, 5 * pixel.standard_error[0] + 1e-9) << name;
+    EXPECT_NEAR(pixel.value[0], .5 * .8 * inv_pi, family.z() * pixel.standard_error[0] + 1e-9) << name;
   }
 }
 

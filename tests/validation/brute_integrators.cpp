@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
+#include "core/format.h"
 #include "fem/radiosity.h"
 #include "fem/surface_solution.h"
 #include "montecarlo/controlled/controlled.h"
 #include "montecarlo/two_pass/two_pass.h"
+#include "tests/montecarlo/both_casters.h"
 #include "tests/montecarlo/solution_rooms.h"
 
 /// Radiosity and paths together, all by rays in double precision.  (By the same solution, and of all integrators:
@@ -32,28 +32,21 @@ std::vector<Estimate> answers(const scene::Scene& scene, const std::vector<measu
   return Method(second).answer(scene, asked, run.get());
 }
 
-/// By the same numbers: their differences are those of few rays, and so below a tenth of what either may be off by
-/// itself, its standard error or bound.
+/// By the same numbers: but for few, both_casters.h.
 template <class Method, class Settings>
-void expect_same(const scene::Scene& scene, const std::vector<measure::Measurement>& asked, double scale) {
-  const auto single = answers<Method, Settings>(scene, asked, scale, "embree"),
-             both = answers<Method, Settings>(scene, asked, scale, "brute");
-  double squares = 0;
-  for (std::size_t m = 0; m < asked.size(); ++m)
-    for (int c = 0; c < scene.channel_count(); ++c) {
-      const double apart = single[m].value[c] - both[m].value[c],
-                   error = std::hypot(single[m].standard_error[c], single[m].error_bound[c]);
-      EXPECT_LE(std::abs(apart), error) << m << ", channel " << c;
-      squares += std::pow(apart / error, 2);
-    }
-  EXPECT_LE(std::sqrt(squares / static_cast<double>(asked.size()) / scene.channel_count()), .1);
+void expect_same(const scene::Scene& scene, const std::vector<measure::Measurement>& asked, double scale,
+                 test::Family& family) {
+  const test::Compared by_both(answers<Method, Settings>(scene, asked, scale, "embree"),
+                               answers<Method, Settings>(scene, asked, scale, "brute"), scene.channel_count());
+  test::expect_few_others(by_both, family, core::format("%g", scale));
 }
 
 template <class Method, class Settings>
 void expect_same_in_all_rooms() {
+  test::Family family(3);
   for (const double scale : {1e-6, 1e6}) {
     const scene::Scene scene = test::furnished(scale);
-    expect_same<Method, Settings>(scene, test::all_of_furnished(scene, scale), scale);
+    expect_same<Method, Settings>(scene, test::all_of_furnished(scene, scale), scale, family);
   }
   const scene::Scene scene = test::known_to_two_passes();
   std::vector<measure::Measurement> asked;
@@ -61,7 +54,7 @@ void expect_same_in_all_rooms() {
     if (scene.surface(id).name.starts_with("room"))
       asked.emplace_back(measure::Flux{measure::patches_of(scene, id, scene::Side::front)});
   for (int k = 0; k < 24; k += 3) asked.emplace_back(measure::PixelRadiance{{0}, k % 6, k / 6});
-  expect_same<Method, Settings>(scene, asked, 1);
+  expect_same<Method, Settings>(scene, asked, 1, family);
 }
 
 TEST(ByBothCasters, two_passes_give_the_same) {

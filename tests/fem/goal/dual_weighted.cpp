@@ -34,7 +34,7 @@ TEST(DualWeighted, is_as_large_as_the_error) {
   std::mt19937 random(11);
   core::LocalRun run(1, 2);
   int count = 0, fine = 0;
-  for (int k = 0; k < 10; ++k) {
+  for (int k = 0; k < 6; ++k) {
     const scene::Scene scene = test::random_box(random);
     const auto rays = raycast::make_ray_caster("embree", scene);
     RadiositySettings of_coarse = test::settings_of(1), of_truth = test::settings_of(2);
