@@ -9,11 +9,12 @@
 
 namespace interflect::montecarlo {
 
-/// What a person calls a lamp: a ball, a sun, or surfaces that share corners, however they are cut.
+/// What a person calls a lamp: a ball, a sun, or surfaces that share corners to the last bit, however they are cut.
 struct Lamp {
   std::string name;
-  geometry::Box box;  ///< none of a sun
-  double area;        ///< that is seen, at most [m²]; of a sun pi times its squared sine
+  geometry::Box box;  ///< none from afar
+  double area;        ///< across the way from which most of it is seen, or in the mean of all, the larger [m²];
+                      ///< from afar the solid angle [sr]
   double picked;      ///< probability that a walk from a light leaves it (EmissionPicker)
 };
 
@@ -24,10 +25,10 @@ struct AlikeLamps {
   std::vector<Lamp> lamps{};
 };
 
-/// Surfaces and balls.  Of more than a thousand alike the least stands for all.
+/// Surfaces and balls.  Of more than a hundred alike one that is as small as any, anywhere among them, stands for all.
 /// @param lights  the scene's
 std::vector<AlikeLamps> lamps_nearby(const scene::Scene& scene, const LightSet& lights);
-/// Those that have an angle.
-std::vector<AlikeLamps> suns_with_angle(const scene::Scene& scene, const LightSet& lights);
+/// Suns that have an angle, and what is at least half as bright as the brightest of an environment map.
+std::vector<AlikeLamps> lamps_afar(const scene::Scene& scene, const LightSet& lights);
 
 }  // namespace interflect::montecarlo

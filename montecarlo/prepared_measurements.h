@@ -16,7 +16,7 @@ class PreparedMeasurements : public SampledMeasurements {
   /// The scene must outlive them.
   /// @throws core::InputError  as MeasurementSampler
   PreparedMeasurements(const scene::Scene& scene, std::span<const measure::Measurement> asked, RareLights rare)
-      : scene_(scene), rare_(std::move(rare)) {
+      : scene_(scene), box_(scene.box()), rare_(std::move(rare)) {
     measured_.reserve(asked.size());
     for (const measure::Measurement& each : asked) measured_.emplace_back(scene, each);
   }
@@ -25,7 +25,7 @@ class PreparedMeasurements : public SampledMeasurements {
   double scale(std::size_t m) const final { return measured_[m].scale(); }
   const RareLights& rare_lights() const final { return rare_; }
   RareLights::From looks_from(std::size_t m) const override {
-    return {measured_[m].is_pixel() ? scene_.box() : measured_[m].box(), measured_[m].is_pixel()};
+    return {measured_[m].is_pixel() ? box_ : measured_[m].box(), measured_[m].is_pixel()};
   }
 
  protected:
@@ -33,6 +33,7 @@ class PreparedMeasurements : public SampledMeasurements {
 
  private:
   const scene::Scene& scene_;
+  geometry::Box box_;
   RareLights rare_;
   std::vector<MeasurementSampler> measured_;
 };

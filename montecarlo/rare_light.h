@@ -16,17 +16,18 @@ namespace interflect::montecarlo {
 /// estimation all light is of that kind.
 ///
 /// A find is pi L of irradiance.  Where n samples met none, the lamps of one radiance may have brought 3 pi L / n together
-/// (rule of three); a sun no more than H by each mirror, its image there.  A lamp counts as met where paths as long as is
-/// usual there meet it a hundred times in n samples: ten times where it shines at a tenth of that, aslant or by a dark
-/// mirror.  By way of a lobe of roughness alpha it is found by 4 alpha² of all paths at least, and a find is so much less.
+/// (rule of three); a sun no more than H by each mirror, its image there (not those of images).  A lamp counts as met
+/// where paths as long as is usual there meet it a hundred times in n samples: ten times where it shines at a tenth of
+/// that, aslant or by a dark mirror.  Where all that is smooth has a lobe, the lamp is found as often as that is wide, if
+/// it is the smaller one, and a find is so much less.
 /// Test: tests/montecarlo/rare_light.cpp
 class RareLights {
  public:
   /// Where paths begin that look for it.
   struct From {
     geometry::Box box;
-    bool pixel = false;   ///< what a mirror shows there is met by every path
-    double by_walks = 0;  ///< chance that a walk from a light meets it
+    bool pixel = false;    ///< what a mirror shows there is met by every path
+    double walked_to = 0;  ///< chance that a walk from a light which comes from what is smooth is counted there
   };
   /// The scene must outlive it.
   /// @param lights  the scene's
@@ -34,6 +35,8 @@ class RareLights {
   RareLights(const scene::Scene& scene, const LightSet& lights, const measure::PathClasses& paths,
              NextEvent next_event = NextEvent::yes);
   bool empty() const { return lights_.empty(); }
+  /// A mirror, smooth glass, or what is nearly one.
+  static bool throws_narrowly(const scene::Material& material);
 
   /// What so many samples of an irradiance may lack, as a standard error [W/m² | lx].
   Spectrum lacks(std::uint64_t samples, const From& from) const;
@@ -58,14 +61,18 @@ class RareLights {
   std::string text(std::uint64_t samples, const From& from) const;
   void add(std::vector<AlikeLamps> lamps, char letter, const measure::PathClasses& there);
   double met(const Lamp& lamp, const From& from) const;
+  double walks_meet(const From& from) const;
   Chance chance(const RareLight& light, const From& from) const;
   Spectrum lacks(const RareLight& light, double samples, const From& from) const;
 
   const scene::Scene& scene_;
   bool by_mirrors_;
-  geometry::Box smooth_;  ///< around all that mirrors, or nearly
-  double images_ = 0;     ///< of a light, by one of them each, as far as chance alone finds them
-  double lobe_ = 1;       ///< part of all paths that the narrowest catches: 0 of a mirror, 1 where there is none
+  double section_;          ///< that walks from afar cover [m²]
+  geometry::Box smooth_;    ///< around all that mirrors, or nearly
+  double smooth_area_ = 0;  ///< [m²]
+  bool mirrors_ = false, lobes_ = false;
+  double images_ = 0;  ///< of a light, by one of them each, as far as chance alone finds them
+  double lobe_ = 1;    ///< part of all paths that the narrowest catches: 0 of a mirror, 1 where there is none
   std::vector<RareLight> lights_;
 };
 

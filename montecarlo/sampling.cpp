@@ -128,20 +128,22 @@ SamplingPlan plan_samples(const SampledMeasurements& measurements, const Samplin
   core::Progress::Stage stage(run.progress, measurements.doing() + " pilot", measurements.size());
   SamplingPlan plan{std::vector<std::uint64_t>(measurements.size(), target.fewest)};
   std::vector<std::uint64_t> spent(measurements.size(), pilot_samples);
+  const RareLights& rare = measurements.rare_lights();
   run.threads.for_blocks(static_cast<Index>(measurements.size()), 1, [&](Index begin, Index) {
     if (run.stop.stop_requested()) return;
     const auto m = static_cast<std::size_t>(begin);
     const double scale = measurements.scale(m),
                  largest = scale * measurements.scene().weigh(measurements.largest_score());
-    const auto needed = [&](std::uint64_t seed, std::uint64_t samples) {
+    const auto count = [&](std::uint64_t seed, std::uint64_t samples) {
       const core::ScalarMoments known = known_of(sample_block(measurements, m, seed, 0, samples));
-      return std::max(samples_needed(known, scale, largest, target),
-                      samples_for(measurements.rare_lights(), scale, known.mean(), measurements.looks_from(m), target));
+      const std::uint64_t needed = samples_needed(known, scale, largest, target);
+      if (rare.empty()) return needed;
+      return std::max(needed, samples_for(rare, scale, known.mean(), measurements.looks_from(m), target));
     };
-    std::uint64_t n = needed(first, pilot_samples);
+    std::uint64_t n = count(first, pilot_samples);
     if (const std::uint64_t more = std::min(n / 8, largest_pilot); more > pilot_samples) {
       spent[m] += more;
-      n = needed(second, more);
+      n = count(second, more);
     }
     plan.counts[m] = n;
     stage.advance();
@@ -161,13 +163,14 @@ std::vector<Estimate> sampled_answers(const SampledMeasurements& measurements, c
   const std::vector<Tally> tallies = sample_all(measurements, counts, seed, run);
   std::vector<Estimate> estimates;
   estimates.reserve(tallies.size());
+  const RareLights& rare = measurements.rare_lights();
   SampleReport ignored;
   SampleReport& report = settings.report != nullptr ? *settings.report : ignored;
   for (std::size_t m = 0; m < tallies.size(); ++m) {
     warn_of_bugs(tallies[m], measurements.name().c_str(), m, seed);
     report.add(m, tallies[m]);
     estimates.push_back(tallies[m].estimate(measurements.scale(m) * measurements.largest_score()));
-    measurements.rare_lights().add_to(estimates.back(), measurements.scale(m), measurements.looks_from(m), report);
+    if (!rare.empty()) rare.add_to(estimates.back(), measurements.scale(m), measurements.looks_from(m), report);
   }
   if (settings.samples == 0) warn_of_cap(measurements, target, estimates);
   return estimates;

@@ -15,8 +15,8 @@ measure::PathClasses paths_in(const scene::Scene& scene);
 /// What its surfaces do with light, any of them.
 Scatters scatters_in(const scene::Scene& scene);
 
-/// Those of them that bring something to what is asked.  Points, spots and parallel light are not seen, as they are nor
-/// in mirrors: that is a convention (docs/lights.md), which leaves `(P|B)S*E` out of pixels.
+/// Those of them that bring something to what is asked.  Points, spots and parallel light are not seen, in mirrors
+/// neither: that is a convention (docs/lights.md), which leaves `(P|B)S*E` out of pixels.
 measure::PathClasses that_reach(const measure::Measurement& asked, const measure::PathClasses& paths);
 
 /// @throws core::InputError  if the method misses paths of `wanted` that there may be in the scene, to some of what is

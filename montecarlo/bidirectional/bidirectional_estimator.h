@@ -38,6 +38,7 @@ class BidirectionalEstimator {
   const LightSet& lights() const { return lights_; }
   bool dark() const { return emissions_.empty(); }
   /// As PathEstimator's: weights are at most 1.
+  bool is_one_alone() const { return only_.has_value(); }
   Spectrum largest_score() const { return 2 * lights_.largest_find(); }
 
   /// Dimensions of `numbers` from blocks of its own on, that no walk from the eye comes to.

@@ -23,20 +23,18 @@ class Joined final : public PreparedMeasurements {
  public:
   Joined(const BidirectionalEstimator& walks, std::span<const measure::Measurement> asked,
          const measure::PathClasses& paths)
-      : PreparedMeasurements(walks.scene(), asked, {walks.scene(), walks.lights(), paths}),
-        walks_(walks),
-        section_(pi / 4 * walks.scene().box().diagonal().squaredNorm()) {
+      : PreparedMeasurements(walks.scene(), asked, {walks.scene(), walks.lights(), paths}), walks_(walks) {
     patches_.reserve(asked.size());
     for (const measure::Measurement& each : asked) patches_.emplace_back(std::span(&each, 1));
   }
   std::string name() const override { return who; }
   std::string doing() const override { return what; }
   Spectrum largest_score() const override { return walks_.largest_score(); }
-  /// Patches are met by the light's walk too: from afar by their share of the scene's cross-section.
+  /// Patches are met by the light's walk too: by their share of what walks from afar cover.
   RareLights::From looks_from(std::size_t m) const override {
     RareLights::From from = PreparedMeasurements::looks_from(m);
-    if (const double pdf_area = measured(m).pdf_area(); pdf_area > 0)
-      from.by_walks = std::min(1.0, 1 / (pdf_area * section_));
+    if (const double pdf_area = measured(m).pdf_area(); pdf_area > 0 && !walks_.is_one_alone())
+      from.walked_to = std::min(1.0, 1 / (pdf_area * walks_.lights().section()));
     return from;
   }
   void sample(std::size_t m, std::uint64_t seed, std::uint32_t stream, std::uint64_t first,
@@ -65,7 +63,6 @@ class Joined final : public PreparedMeasurements {
   }
 
   const BidirectionalEstimator& walks_;
-  double section_;
   std::vector<MeasuredPatches> patches_;  ///< of each alone
 };
 
@@ -106,22 +103,52 @@ std::vector<Tally> tallies_of(const BidirectionalFilm& film, std::uint64_t count
   return tallies;
 }
 
-/// Walks from lights are seen by one pixel as often as by another, as far as is known.
-RareLights::From looks_from(const scene::Scene& scene, const scene::Camera& camera) {
-  return {scene.box(), true, 1 / (static_cast<double>(camera.width) * camera.height)};
+/// Whether a pixel shows what mirrors, or nearly, by as many rays as tell.
+bool shows_what_is_smooth(const scene::Scene& scene, const raycast::RayCaster& caster, const scene::FilmMap& film,
+                          const Vec2& corner) {
+  constexpr int each_way = 8;
+  for (int k = 0; k < each_way * each_way; ++k) {
+    const Vec2 at = corner + Vec2(k % each_way + .5, k / each_way + .5) / each_way;
+    const auto ray = film.ray(at);
+    const auto hit = ray ? caster.closest({ray->origin, ray->direction}) : std::nullopt;
+    if (hit && RareLights::throws_narrowly(scene.material(hit->surface))) return true;
+  }
+  return false;
 }
 
+/// Light that pixels may lack.  Walks from lights are seen by one as often as by another, but where it shows what is
+/// smooth: what that throws into a pinhole they cannot bring.
+struct RareInPixels {
+  RareLights light;
+  std::vector<RareLights::From> from;  ///< by pixel
+
+  RareInPixels(const BidirectionalEstimator& walks, const raycast::RayCaster& caster, const measure::PathClasses& paths,
+               const scene::Camera& camera, const Pixels& asked)
+      : light(walks.scene(), walks.lights(), paths), from(asked.pixels.size()) {
+    if (light.empty()) return;
+    const scene::FilmMap film(camera);
+    const geometry::Box box = walks.scene().box();
+    const double by_one = 1 / (static_cast<double>(camera.width) * camera.height);
+    for (std::size_t p = 0; p < from.size(); ++p) {
+      const auto [row, column] = std::div(static_cast<int>(asked.pixels[p]), camera.width);
+      const bool found = !walks.is_one_alone() && !shows_what_is_smooth(walks.scene(), caster, film, Vec2(column, row));
+      from[p] = {box, true, found ? by_one : 0};
+    }
+  }
+};
+
 /// How many sweeps all pixels need, by pilots that are thrown away, as plan_samples does it.
-std::uint64_t sweeps_needed(const BidirectionalEstimator& walks, const RareLights& rare, const scene::Camera& camera,
+std::uint64_t sweeps_needed(const BidirectionalEstimator& walks, const RareInPixels& rare, const scene::Camera& camera,
                             const Pixels& asked, const ReconstructionFilter& filter, const std::string& purpose,
                             const SamplingTarget& target, Run& run) {
   const double largest = inv_pi * walks.scene().weigh(walks.largest_score());
   const auto by_pilot = [&](std::uint64_t size, const char* which) {
     const BidirectionalFilm film(walks, camera, asked.pixels, filter, core::derived_seed(run.seed, purpose + which));
     std::uint64_t most = 0;
-    for (const Tally& pilot : tallies_of(film, size, walks.scene(), "bidirectional pilot", run))
-      most = std::max({most, samples_needed(pilot.weighed, inv_pi, largest, target),
-                       samples_for(rare, inv_pi, pilot.weighed.mean(), looks_from(walks.scene(), camera), target)});
+    const auto pilots = tallies_of(film, size, walks.scene(), "bidirectional pilot", run);
+    for (std::size_t p = 0; p < pilots.size(); ++p)
+      most = std::max({most, samples_needed(pilots[p].weighed, inv_pi, largest, target),
+                       samples_for(rare.light, inv_pi, pilots[p].weighed.mean(), rare.from[p], target)});
     run.throw_if_stopped(what);
     return most;
   };
@@ -130,13 +157,12 @@ std::uint64_t sweeps_needed(const BidirectionalEstimator& walks, const RareLight
 }
 
 /// The pixels of one camera, into `estimates`.
-void answer_film(const BidirectionalEstimator& walks, const measure::PathClasses& paths, scene::CameraId camera,
+void answer_film(const BidirectionalEstimator& walks, const RareInPixels& rare, scene::CameraId camera,
                  const Pixels& asked, const SamplingSettings& settings, Run& run, std::vector<Estimate>& estimates) {
   const scene::Scene& scene = walks.scene();
   const auto filter = make_filter("box");
   const std::string purpose = core::format("%s film %u", who, camera.value);
   const SamplingTarget target = target_of(settings, scene, walks.lights().flux(), fewest_samples);
-  const RareLights rare(scene, walks.lights(), paths);
   const std::uint64_t count = settings.samples > 0 ? settings.samples
                                                    : sweeps_needed(walks, rare, scene.camera(camera), asked, *filter,
                                                                    purpose, target, run),
@@ -151,7 +177,7 @@ void answer_film(const BidirectionalEstimator& walks, const measure::PathClasses
       warn_of_bugs(tallies[p], what, m, seed);
       report.add(m, tallies[p]);
       estimates[m] = tallies[p].estimate(inv_pi * walks.largest_score());
-      rare.add_to(estimates[m], inv_pi, looks_from(scene, scene.camera(camera)), report);
+      rare.light.add_to(estimates[m], inv_pi, rare.from[p], report);
     }
   }
 }
@@ -193,7 +219,8 @@ std::vector<Estimate> BidirectionalTracer::answer(const scene::Scene& scene,
   if (walks.dark()) return estimates;
   answer_places(walks, asked, settings_, run, estimates);
   for (const auto& [camera, pixels] : pixels_of(scene, asked))
-    answer_film(walks, settings_.paths, {camera}, pixels, sampling_of(settings_), run, estimates);
+    answer_film(walks, {walks, *caster, settings_.paths, scene.camera({camera}), pixels}, {camera}, pixels,
+                sampling_of(settings_), run, estimates);
   return estimates;
 }
 

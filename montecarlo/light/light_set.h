@@ -57,6 +57,7 @@ class LightSet {
   Vec3 beyond(const Vec3& x, const Vec3& way) const { return x + ((x - centre_).norm() + 2 * radius_) * way; }
 
   Spectrum flux() const;  ///< of all [W | lm]
+  double section() const { return pi * radius_ * radius_; }  ///< of the disk that covers the scene [m²]
   /// An irradiance that one sample can find at most by one technique, except beside points of light: of those it is what
   /// they give at a tenth of the scene's radius, over the probability of their pick by power.
   const Spectrum& largest_find() const { return largest_; }

@@ -52,6 +52,7 @@ struct Compared {
 };
 
 /// Of a number that few are expected of (Poisson), what it is beyond with no more than this probability.
+/// @pre  expected < 700, so that none at all is not impossible
 inline int most_of_few(double expected, double level) {
   double term = std::exp(-expected), rest = 1 - term;
   int k = 0;

@@ -5,7 +5,7 @@
 #include "montecarlo/render.h"
 #include "tests/montecarlo/rooms.h"
 
-// That no integrator draws another's numbers, with the same seed: or else the error of their difference would not be
+// That integrators which follow paths from the eye draw no numbers of each other's, with the same seed: or else the error of their difference would not be
 // that of independent ones, as `compare` takes it.  Of n places that are all the same the correlation r of what two
 // integrators find is then normal, of standard error n^-1/2.
 namespace interflect::montecarlo {

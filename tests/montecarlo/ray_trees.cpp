@@ -207,8 +207,8 @@ TEST(RayTrees, agree_with_path_tracing_of_their_classes) {
   for (std::uint32_t camera = 0; camera < 5; ++camera)
     for (const int k : {0, 1, 2}) asked.push_back(measure::PixelRadiance{{camera}, 1 + (k == 1), 1 + (k == 2)});
   const auto distributed = measure::PathClasses::of("L(D|G)?(S|G)*E"), whitted = measure::PathClasses::of("L(D|G)?S*E");
-  test::expect_same(Distributed({.samples = 60'000, .paths = distributed}),
-                    PathTracer({.samples = 100'000, .paths = distributed}), scene, asked, .1);
+  test::expect_same(Distributed({.samples = 200'000, .paths = distributed}),
+                    PathTracer({.samples = 200'000, .paths = distributed}), scene, asked, .1);
   core::LocalRun run(1);
   const auto known = PathTracer({.samples = 200'000, .paths = whitted}).answer(scene, asked, run.get()),
              found = Whitted({.max_samples = 1u << 15, .paths = whitted}).answer(scene, asked, run.get());
