@@ -57,29 +57,19 @@ TEST(RareLight, may_be_three_finds_or_what_a_mirror_shows) {
 }
 
 TEST(RareLight, may_be_shown_by_each_mirror) {
-  scene::SceneBuilder builder({"grey"});
-  scene::Material mirror;
-  mirror.name = "mirror", mirror.finish = scene::Mirror{test::grey(.8)};
-  builder.add_polygon("floor", test::parallelogram(Vec3::Zero(), x, y),
-                      builder.add_material(test::diffuse("grey", .5, 0)));
-  const auto material = builder.add_material(mirror);
-  for (int k = 0; k < 10; ++k)
-    builder.add_polygon("wall" + std::to_string(k), test::parallelogram(x + .1 * k * y, 2 * z, .1 * y), material);
-  builder.scene().lights.suns.push_back({.name = "sun", .direction = Vec3(.6, 0, -.8), .irradiance = test::grey(1)});
-  EXPECT_DOUBLE_EQ(rare_in(builder.finish()).lacks(4096, anywhere)[0], 10);
+  scene::SceneBuilder builder = test::beside_a_sun();
+  const auto mirror = builder.add_material(test::finished(scene::Mirror{test::grey(.8)}));
+  for (int k = 1; k < 10; ++k)
+    builder.add_polygon("wall" + std::to_string(k), test::parallelogram(x + k * y, 2 * z, y), mirror);
+  const scene::Scene scene = builder.finish();
+  EXPECT_DOUBLE_EQ(rare_in(scene).lacks(4096, anywhere)[0], 10);
 }
 
 // A walk from the sun finds a patch as often as it meets it, if it is the sun from which it sets out.
 TEST(RareLight, is_met_by_walks_too_if_they_set_out_from_it) {
-  scene::SceneBuilder builder({"grey"});
-  scene::Material mirror;
-  mirror.name = "mirror", mirror.finish = scene::Mirror{test::grey(.8)};
-  builder.add_polygon("floor", test::parallelogram(Vec3::Zero(), x, y),
-                      builder.add_material(test::diffuse("grey", .5, 0)));
-  builder.add_polygon("wall", test::parallelogram(x, 2 * z, y), builder.add_material(mirror));
+  scene::SceneBuilder builder = test::beside_a_sun();
   builder.add_polygon("lamp", test::parallelogram(Vec3(0, 0, -.5), y, x),
                       builder.add_material(test::diffuse("lamp", 0, 1e6)));
-  builder.scene().lights.suns.push_back({.name = "sun", .direction = Vec3(.6, 0, -.8), .irradiance = test::grey(1)});
   const scene::Scene bright = builder.finish(), plain = test::sun_and_mirror(1, Sun::seen_from_earth);
   const double mirrored = 2 / LightSet(plain).section();
   const RareLights::From met{plain.box(), false, .009 / mirrored};
@@ -156,24 +146,16 @@ TEST(RareLight, is_met_aslant) {
 // Beside a mirror that shows nothing metal may throw it too.  Glass bends light less than it mirrors it.
 TEST(RareLight, is_thrown_by_metal_beside_mirrors_and_by_glass) {
   const auto samples_by = [](const scene::Finish& finish) {
-    scene::Scene scene = test::sun_and_mirror(1, Sun::seen_from_earth);
-    for (scene::Material& material : scene.materials)
-      if (material.name == "mirror") material.finish = finish;
+    const scene::Scene scene = test::beside_a_sun(finish).finish();
     return rare_in(scene).samples_for(1e-9, anywhere);
   };
   EXPECT_NEAR(samples_by(scene::Glass{1.1, .1}), 100 / squared(.1 * (1 - 1 / 1.1)), 1e-6);
   EXPECT_NEAR(samples_by(scene::Glass{1.5, .2}), 100 / squared(.2 / 3), 1e-6);
   EXPECT_EQ(samples_by(scene::Glass{1.5, .8}), 0);
 
-  scene::SceneBuilder builder({"grey"});
-  scene::Material mirror, metal;
-  mirror.name = "mirror", mirror.finish = scene::Mirror{test::grey(.8)};
-  metal.name = "metal", metal.finish = scene::Metal{test::grey(.8), .005};
-  builder.add_polygon("floor", test::parallelogram(Vec3::Zero(), x, y),
-                      builder.add_material(test::diffuse("grey", .5, 0)));
-  builder.add_polygon("wall", test::parallelogram(x, 2 * z, y), builder.add_material(metal));
-  builder.add_polygon("below", test::parallelogram(Vec3(0, 0, -3), y, x), builder.add_material(mirror));
-  builder.scene().lights.suns.push_back({.name = "sun", .direction = Vec3(.6, 0, -.8), .irradiance = test::grey(1)});
+  scene::SceneBuilder builder = test::beside_a_sun(scene::Metal{test::grey(.8), .005});
+  builder.add_polygon("below", test::parallelogram(Vec3(0, 0, -3), y, x),
+                      builder.add_material(test::finished(scene::Mirror{test::grey(.8)})));
   const scene::Scene scene = builder.finish();
   const auto point = test::asked_of_sun_and_mirror(scene, 1).point;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -185,10 +167,7 @@ TEST(RareLight, is_thrown_by_metal_beside_mirrors_and_by_glass) {
 // Nearly smooth metal throws it as a mirror does: into its lobe or not at all.  Compensated, it reflects .8.
 TEST(RareLight, is_thrown_by_nearly_smooth_metal) {
   const auto with_metal = [](double roughness) {
-    scene::Scene scene = test::sun_and_mirror(1, Sun::seen_from_earth);
-    for (scene::Material& material : scene.materials)
-      if (material.name == "mirror") material.finish = scene::Metal{test::grey(.8), roughness};
-    return scene;
+    return test::beside_a_sun(scene::Metal{test::grey(.8), roughness}).finish();
   };
   const scene::Scene scene = with_metal(.005);
   EXPECT_DOUBLE_EQ(rare_in(scene).lacks(10'000, anywhere)[0], 1) << "3 H of 10 000 samples x 1e-4, and no more than H";
@@ -234,9 +213,8 @@ TEST(RareLight, is_each_light_that_may_be_met_so) {
 TEST(RareLight, is_of_lamps_and_not_of_their_parts) {
   const auto lit_by = [](int cuts, int lamps, double apart) {
     scene::SceneBuilder builder({"grey"});
-    scene::Material mirror;
-    mirror.name = "mirror", mirror.finish = scene::Mirror{test::grey(.8)};
-    builder.add_polygon("wall", test::parallelogram(x, 2 * z, y), builder.add_material(mirror));
+    builder.add_polygon("wall", test::parallelogram(x, 2 * z, y),
+                        builder.add_material(test::finished(scene::Mirror{test::grey(.8)})));
     const auto bright = builder.add_material(test::diffuse("bright", 0, 100));
     for (int lamp = 0; lamp < lamps; ++lamp)
       for (int i = 0; i < cuts; ++i)
@@ -263,11 +241,10 @@ TEST(RareLight, is_of_lamps_and_not_of_their_parts) {
 TEST(RareLight, is_as_rare_as_it_is_far) {
   const auto with_ball = [](double ground, double away) {
     scene::SceneBuilder builder({"grey"});
-    scene::Material mirror;
-    mirror.name = "mirror", mirror.finish = scene::Mirror{test::grey(.8)};
     builder.add_polygon("ground", test::parallelogram(Vec3(-ground, -ground, 0), 2 * ground * x, 2 * ground * y),
                         builder.add_material(test::diffuse("grey", .5, 0)));
-    builder.add_polygon("wall", test::parallelogram(x, 2 * z, y), builder.add_material(mirror));
+    builder.add_polygon("wall", test::parallelogram(x, 2 * z, y),
+                        builder.add_material(test::finished(scene::Mirror{test::grey(.8)})));
     builder.scene().lights.spheres.push_back(
         {"ball", Vec3(.5, .5, 1) - away * Vec3(.6, 0, -.8), .02 * away, test::grey(1)});
     return builder.finish();

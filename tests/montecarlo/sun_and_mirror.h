@@ -8,17 +8,24 @@ namespace interflect::test {
 
 inline constexpr double under_sun_and_mirror = .8 + .8 * .8;
 
-inline scene::Scene sun_and_mirror(double scale, double angular_radius, const Vec3& direction = Vec3(.6, 0, -.8)) {
+/// To be furnished.  What stands in the mirror's place throws as much.
+inline scene::SceneBuilder beside_a_sun(const scene::Finish& wall = scene::Mirror{grey(.8)}, double scale = 1,
+                                        double angular_radius = scene::Sun::seen_from_earth,
+                                        const Vec3& direction = Vec3(.6, 0, -.8)) {
   scene::SceneBuilder builder({"grey"});
-  scene::Material mirror;
-  mirror.name = "mirror", mirror.finish = scene::Mirror{grey(.8)};
   const Vec3 x = scale * Vec3::UnitX(), y = scale * Vec3::UnitY(), z = scale * Vec3::UnitZ();
+  scene::Material material;
+  material.name = "wall", material.finish = wall;
   builder.add_polygon("floor", parallelogram(Vec3::Zero(), x, y), builder.add_material(diffuse("grey", .5, 0)));
-  builder.add_polygon("wall", parallelogram(x, 2 * z, y), builder.add_material(mirror));
+  builder.add_polygon("wall", parallelogram(x, 2 * z, y), builder.add_material(material));
   builder.scene().lights.suns.push_back(
       {.name = "sun", .direction = direction, .irradiance = grey(1), .angular_radius = angular_radius});
   builder.scene().cameras.push_back({"c", .2 * x + .5 * y + 1.2 * z, .5 * x + .5 * y, Vec3::UnitX(), 20, 1, 1});
-  return builder.finish();
+  return builder;
+}
+
+inline scene::Scene sun_and_mirror(double scale, double angular_radius, const Vec3& direction = Vec3(.6, 0, -.8)) {
+  return beside_a_sun(scene::Mirror{grey(.8)}, scale, angular_radius, direction).finish();
 }
 
 struct UnderSunAndMirror {
