@@ -7,6 +7,7 @@
 #include "apps/comparison_pictures.h"
 #include "apps/comparison_report.h"
 #include "apps/first_pass.h"
+#include "apps/paths_asked.h"
 #include "apps/read_scene.h"
 #include "apps/scene_questions.h"
 #include "core/error.h"
@@ -107,8 +108,8 @@ std::vector<std::string> those_by_themselves() {
 }  // namespace
 
 ExitStatus compare(const CompareOptions& options, const CommonOptions& common, Run& run) {
-  measure::PathClasses::of(options.paths);  // before the work
   scene::Scene scene = read_and_note(options.scene);
+  paths_asked(scene, options.paths);  // before the work
   std::optional<scene::CameraId> camera, few;
   if (!scene.cameras.empty() || !options.camera.empty()) {
     camera = camera_named(scene, options.camera);

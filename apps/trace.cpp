@@ -5,6 +5,7 @@
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
 #include "apps/first_pass.h"
+#include "apps/paths_asked.h"
 #include "apps/picture_checkpoint.h"
 #include "apps/read_scene.h"
 #include "apps/scene_questions.h"
@@ -33,7 +34,7 @@ struct SamplesTold {
 
 SamplesTold told_of(const montecarlo::Rendering& picture) {
   return {picture.report.not_finite, picture.report.heavy.size(),
-          picture.report.heavy_text_of_picture(picture.radiance.width, picture.radiance.height)};
+          picture.report.heavy_text_of_picture(picture.radiance.width, picture.radiance.height), picture.report.rare};
 }
 
 std::vector<std::string> names_of(const scene::Scene& scene, const SceneQuestions& questions) {
@@ -164,6 +165,7 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   scene::Scene scene = read_and_note(options.scene);
   if (!options.group.empty()) scene = measure::lit_by(std::move(scene), options.group);
   const scene::CameraId camera = camera_named(scene, options.camera);
+  paths_asked(scene, options.paths);  // before the work
   std::optional<results::OutputDirectory> pictures, estimates;
   if (options.image.has_parent_path()) pictures.emplace(options.image.parent_path());
   if (!options.estimates.empty()) estimates.emplace(options.estimates);

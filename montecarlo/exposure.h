@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "core/run.h"
 #include "montecarlo/film/film.h"
@@ -17,6 +18,9 @@ class Exposure {
   virtual ~Exposure() = default;
   /// Of an irradiance of 1, as Tally::estimate takes it.
   virtual Spectrum largest_score() const = 0;
+  /// Of so many samples a pixel, in words: light that they may not have met, which is in no error; empty where there is
+  /// none.
+  virtual std::string may_lack(std::uint64_t /*samples*/) const { return {}; }
   /// More samples of all pixels, which have `done` each or, after a stop, some more; up to `limit`.
   /// @param after_some  called now and then, between samples
   /// @return            samples that all have then, but for a stop

@@ -7,6 +7,7 @@
 #include "montecarlo/bsdf/lambert.h"
 #include "montecarlo/next_event.h"
 #include "montecarlo/path_letters.h"
+#include "montecarlo/rare_light.h"
 #include "montecarlo/receiver.h"
 #include "montecarlo/sight.h"
 
@@ -69,6 +70,7 @@ class PathEstimator {
   /// (beside points of light there is no such bound: LightSet::largest_find), and by a ray alone all of a light's
   /// radiance.  What is met behind a mirror may be more: of that RareLights knows.
   const Spectrum& largest_score() const { return largest_score_; }
+  RareLights rare_lights() const { return {scene_, lights_, paths_, next_event_ ? NextEvent::yes : NextEvent::no}; }
 
  private:
   friend class ControlledPaths;  ///< the same steps, and a solution where paths end

@@ -26,6 +26,7 @@ class PathExposure final : public PixelExposure {
         seed_(core::derived_seed(run.seed, path_tracer_name(next_event) + " pixels")) {}
 
   Spectrum largest_score() const override { return paths_.largest_score(); }
+  std::string may_lack(std::uint64_t samples) const override { return paths_.rare_lights().of_picture(samples); }
 
  private:
   PixelOnFilm place_of(std::size_t pixel) const {

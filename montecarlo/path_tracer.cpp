@@ -14,9 +14,7 @@ namespace {
 class PathTraced final : public PreparedMeasurements {
  public:
   PathTraced(const PathEstimator& paths, std::span<const measure::Measurement> asked, NextEvent next_event)
-      : PreparedMeasurements(paths.scene(), asked, {paths.scene(), paths.lights(), paths.classes(), next_event}),
-        paths_(paths),
-        next_event_(next_event) {}
+      : PreparedMeasurements(paths.scene(), asked, paths.rare_lights()), paths_(paths), next_event_(next_event) {}
   std::string name() const override { return path_tracer_name(next_event_); }
   std::string doing() const override { return "path tracing"; }
   Spectrum largest_score() const override { return paths_.largest_score(); }

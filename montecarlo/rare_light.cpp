@@ -143,21 +143,26 @@ void RareLights::add_to(Estimate& estimate, double scale, const From& from, Samp
   const double weighed = scene_.weigh(lacked), known = estimate.weighed_standard_error;
   estimate.weighed_standard_error = std::hypot(known, weighed);
   if (known > weighed || (!report.rare.empty() && report.rare_samples <= estimate.samples)) return;
-  report.rare = text(estimate.samples, from);
+  report.rare = text(estimate.samples, from, ": errors allow for some that none has met");
   report.rare_samples = estimate.samples;
 }
 
-/// "light of sun by way of mirrors or smooth glass is met by one path in 46223 or so, and 4096 were taken: .."; of what
+std::string RareLights::of_picture(std::uint64_t samples) const {
+  const From from{scene_.box(), true};
+  if (lacks(samples, from).is_zero()) return {};
+  return text(samples, from, " a pixel: specks where it is met, and elsewhere errors that do not know of it");
+}
+
+/// "light of sun by way of mirrors, glass or metal is met by one path in 46223 or so, and 4096 were taken: .."; of what
 /// may be lacked most.
-std::string RareLights::text(std::uint64_t samples, const From& from) const {
+std::string RareLights::text(std::uint64_t samples, const From& from, const char* what_is_not_met) const {
   const auto lacked = [&](const RareLight& light) {
     return scene_.weigh(lacks(light, static_cast<double>(samples), from));
   };
   const Chance of = chance(*std::ranges::max_element(lights_, {}, lacked), from);
-  return core::format(
-      "light of %s%s is met by one path in %.0f or so, and %llu were taken: errors allow for some that none has met",
-      of.of->name.c_str(), by_mirrors_ ? " by way of mirrors, glass or metal" : "", 1 / of.found,
-      static_cast<unsigned long long>(samples));
+  return core::format("light of %s%s is met by one path in %.0f or so, and %llu were taken%s", of.of->name.c_str(),
+                      by_mirrors_ ? " by way of mirrors, glass or metal" : "", 1 / of.found,
+                      static_cast<unsigned long long>(samples), what_is_not_met);
 }
 
 }  // namespace interflect::montecarlo

@@ -45,6 +45,9 @@ class RareLights {
   /// Of a measurement of that scale: as much into its standard errors; told where it is most of them, of the measurement
   /// that has the fewest samples.
   void add_to(Estimate& estimate, double scale, const From& from, SampleReport& report) const;
+  /// Of a picture with so many samples a pixel, whose errors are of these alone: what is lacked, in words; empty where
+  /// nothing is.
+  std::string of_picture(std::uint64_t samples) const;
 
  private:
   struct RareLight {
@@ -58,7 +61,7 @@ class RareLights {
     double found, share;
   };
   void set_smooth();
-  std::string text(std::uint64_t samples, const From& from) const;
+  std::string text(std::uint64_t samples, const From& from, const char* what_is_not_met) const;
   void add(std::vector<AlikeLamps> lamps, char letter, const measure::PathClasses& there);
   double met(const Lamp& lamp, const From& from) const;
   double walks_meet(const From& from) const;

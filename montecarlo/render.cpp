@@ -162,6 +162,8 @@ class Painter {
           picture.standard_error.at(x, y, c) = static_cast<float>(error[c]);
         }
       }
+    picture.report.rare = exposure_->may_lack(film_.fewest_samples());
+    picture.report.rare_samples = film_.fewest_samples();
     if (const std::uint64_t not_finite = picture.report.not_finite; not_finite > 0)
       core::log::warning(core::format("render: %llu samples are not finite and count as zero (seed %llu)",
                                       static_cast<unsigned long long>(not_finite),

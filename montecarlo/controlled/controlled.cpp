@@ -25,8 +25,7 @@ struct Expected {
 class ControlledMeasurements final : public PreparedMeasurements {
  public:
   ControlledMeasurements(const ControlledPaths& paths, std::span<const measure::Measurement> asked)
-      : PreparedMeasurements(paths.paths().scene(), asked,
-                             {paths.paths().scene(), paths.paths().lights(), paths.paths().classes()}),
+      : PreparedMeasurements(paths.paths().scene(), asked, paths.paths().rare_lights()),
         paths_(paths),
         expected_(asked.size()) {}
   std::string name() const override { return "controlled paths"; }

@@ -28,6 +28,9 @@ class ControlledExposure final : public PixelExposure {
   }
 
   Spectrum largest_score() const override { return paths_.largest_score(); }
+  std::string may_lack(std::uint64_t samples) const override {
+    return paths_.paths().rare_lights().of_picture(samples);
+  }
 
  private:
   /// Samples of a pixel by their radiances.

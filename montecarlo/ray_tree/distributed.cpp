@@ -158,6 +158,7 @@ class DistributedExposure final : public PixelExposure {
         seed_(core::derived_seed(run.seed, "distributed ray tracer pixels")) {}
 
   Spectrum largest_score() const override { return trees_.largest_score(); }
+  std::string may_lack(std::uint64_t samples) const override { return trees_.rare_lights().of_picture(samples); }
 
  private:
   void expose(Film& film, std::size_t pixel, std::uint64_t begin, std::uint64_t end) override {

@@ -35,8 +35,7 @@ class TwoPassed final : public PreparedMeasurements {
   TwoPassed(const TwoPassEstimator& at_places, const TwoPassEstimator& at_pixels,
             const measure::SurfaceSolution& solution, std::span<const measure::Measurement> asked)
       : PreparedMeasurements(at_places.paths().scene(), asked,
-                             // which bring chance to pixels only if those of pixels do, too
-                             {at_places.paths().scene(), at_places.paths().lights(), at_places.paths().classes()}),
+                             at_places.paths().rare_lights()),  // to pixels too: those of their paths come to none else
         at_places_(at_places),
         at_pixels_(at_pixels),
         solution_(solution) {}

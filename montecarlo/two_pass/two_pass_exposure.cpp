@@ -29,6 +29,9 @@ class TwoPassExposure final : public PixelExposure {
   }
 
   Spectrum largest_score() const override { return passes_.paths().largest_score(); }
+  std::string may_lack(std::uint64_t samples) const override {
+    return passes_.paths().rare_lights().of_picture(samples);
+  }
 
  private:
   void expose(Film& film, std::size_t pixel, std::uint64_t begin, std::uint64_t end) override {

@@ -107,6 +107,18 @@ TEST(Trace, has_estimates_by_either_integrator) {
       << refused.err;
 }
 
+// Paths that no light can take in the scene would be a black picture, after all the work.
+TEST(Trace, refuses_paths_that_the_scene_does_not_have) {
+  const TemporaryFolder folder;
+  for (const char* paths : {"ED", "LD", "E", "LEL", "PDE", "LGE", "LSSE"}) {
+    const Outcome outcome =
+        interflect({"trace", shipped_scene("cornell_box"), "--paths", paths, "-o", folder / "x.png"});
+    EXPECT_EQ(outcome.status, 2) << paths;
+    EXPECT_TRUE(contains(outcome.err, "there are none such in this scene, whose paths are (A)(D)*E")) << outcome.err;
+  }
+  EXPECT_EQ(folder.files(), 0u);
+}
+
 // Unbiased by a solution, as the furnace tells; which paths count is free, and what radiosity cannot solve is refused in
 // the integrator's name.
 TEST(Trace, is_controlled_by_a_solution_where_there_can_be_one) {

@@ -2,6 +2,7 @@
 
 #include "core/format.h"
 #include "montecarlo/integrators.h"
+#include "montecarlo/render.h"
 #include "montecarlo/sample_report.h"
 #include "tests/montecarlo/statistics.h"
 #include "tests/montecarlo/sun_and_mirror.h"
@@ -193,6 +194,21 @@ TEST(RareLight, is_in_the_errors_of_pixels_by_trees_of_rays) {
       answer("distributed", scene, test::asked_of_sun_and_mirror(scene, 1).pixel, 4096, 6, nullptr, paths);
   EXPECT_EQ(few.value[0], 0);
   EXPECT_NEAR(few.standard_error[0], inv_pi, 1e-2) << "H by a mirror, and three largest finds of none";
+}
+
+// Pictures say what their errors do not know, where it may be.
+TEST(RareLight, is_told_of_pictures) {
+  const auto told = [](const char* integrator, const scene::Scene& scene) {
+    RenderSettings settings;
+    settings.integrator = integrator, settings.samples = 4;
+    core::LocalRun run;
+    return render(scene, {0}, settings, run.get(), *raycast::make_ray_caster("embree", scene)).report.rare;
+  };
+  const scene::Scene scene = test::sun_and_mirror(1, Sun::seen_from_earth);
+  EXPECT_NE(told("path", scene).find("light of sun by way of mirrors"), std::string::npos) << told("path", scene);
+  EXPECT_NE(told("unidirectional", scene).find("light of sun is met by one path in 46223"), std::string::npos);
+  EXPECT_EQ(told("bidirectional", scene), "");
+  EXPECT_EQ(told("path", test::facing_squares()), "");
 }
 
 // Another light, smaller and faint, does not stand for it; a light nearby is met more often than at the scene's size.
