@@ -7,8 +7,8 @@
 #include "apps/comparison_pictures.h"
 #include "apps/comparison_report.h"
 #include "apps/first_pass.h"
-#include "apps/paths_asked.h"
 #include "apps/read_scene.h"
+#include "apps/require_paths.h"
 #include "apps/scene_questions.h"
 #include "core/error.h"
 #include "core/format.h"
@@ -109,7 +109,7 @@ std::vector<std::string> those_by_themselves() {
 
 ExitStatus compare(const CompareOptions& options, const CommonOptions& common, Run& run) {
   scene::Scene scene = read_and_note(options.scene);
-  paths_asked(scene, options.paths);  // before the work
+  require_paths(scene, options.paths);
   std::optional<scene::CameraId> camera, few;
   if (!scene.cameras.empty() || !options.camera.empty()) {
     camera = camera_named(scene, options.camera);

@@ -5,9 +5,9 @@
 #include "apps/camera_pictures.h"
 #include "apps/commands.h"
 #include "apps/first_pass.h"
-#include "apps/paths_asked.h"
 #include "apps/picture_checkpoint.h"
 #include "apps/read_scene.h"
+#include "apps/require_paths.h"
 #include "apps/scene_questions.h"
 #include "core/error.h"
 #include "core/format.h"
@@ -165,7 +165,7 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   scene::Scene scene = read_and_note(options.scene);
   if (!options.group.empty()) scene = measure::lit_by(std::move(scene), options.group);
   const scene::CameraId camera = camera_named(scene, options.camera);
-  paths_asked(scene, options.paths);  // before the work
+  require_paths(scene, options.paths);
   std::optional<results::OutputDirectory> pictures, estimates;
   if (options.image.has_parent_path()) pictures.emplace(options.image.parent_path());
   if (!options.estimates.empty()) estimates.emplace(options.estimates);

@@ -172,10 +172,6 @@ void warn_of_cap(const Tracing& tracing, const scene::Scene& scene, std::span<co
                                     static_cast<unsigned long long>(tracing.paths())));
 }
 
-SamplingSettings sampling_of(const LightTracerSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
-}
-
 }  // namespace
 
 /// What leaves a surface that is no mirror last can be joined with points and pixels; light at once is drawn from points,

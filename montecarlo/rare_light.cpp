@@ -155,14 +155,14 @@ std::string RareLights::of_picture(std::uint64_t samples) const {
 
 /// "light of sun by way of mirrors, glass or metal is met by one path in 46223 or so, and 4096 were taken: .."; of what
 /// may be lacked most.
-std::string RareLights::text(std::uint64_t samples, const From& from, const char* what_is_not_met) const {
+std::string RareLights::text(std::uint64_t samples, const From& from, const char* ending) const {
   const auto lacked = [&](const RareLight& light) {
     return scene_.weigh(lacks(light, static_cast<double>(samples), from));
   };
   const Chance of = chance(*std::ranges::max_element(lights_, {}, lacked), from);
   return core::format("light of %s%s is met by one path in %.0f or so, and %llu were taken%s", of.of->name.c_str(),
                       by_mirrors_ ? " by way of mirrors, glass or metal" : "", 1 / of.found,
-                      static_cast<unsigned long long>(samples), what_is_not_met);
+                      static_cast<unsigned long long>(samples), ending);
 }
 
 }  // namespace interflect::montecarlo

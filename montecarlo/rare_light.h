@@ -61,7 +61,7 @@ class RareLights {
     double found, share;
   };
   void set_smooth();
-  std::string text(std::uint64_t samples, const From& from, const char* what_is_not_met) const;
+  std::string text(std::uint64_t samples, const From& from, const char* ending) const;
   void add(std::vector<AlikeLamps> lamps, char letter, const measure::PathClasses& there);
   double met(const Lamp& lamp, const From& from) const;
   double walks_meet(const From& from) const;

@@ -101,11 +101,6 @@ class ControlledMeasurements final : public PreparedMeasurements {
   std::vector<Expected> expected_;
 };
 
-SamplingSettings sampling_of(const ControlledSettings& settings) {
-  const PathTracerSettings defaults;
-  return {settings.samples, settings.target, defaults.target_floor, defaults.max_samples, settings.report};
-}
-
 /// Of a measurement: few beside those that count.
 std::uint64_t paths_of_pilot(std::uint64_t samples) {
   constexpr std::uint64_t most = 512;

@@ -18,6 +18,8 @@ struct ControlledSettings {
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
   measure::SurfaceSolution solution;                         ///< however wrong
   SampleReport* report = nullptr;                            ///< of the samples, to be added to; null: none
+  double target_floor = 0.1;  ///< ... or relative to this part of the scene's mean irradiance
+  std::uint64_t max_samples = 1u << 26;
 };
 
 /// Path tracing with a radiosity solution as a control variate (controlled_paths.h).  Unbiased whatever the solution's

@@ -246,10 +246,6 @@ class WhittedExposure final : public PixelExposure {
   Sequences sequences_ = scrambled_sequences();
 };
 
-SamplingSettings sampling_of(const WhittedSettings& s) {
-  return {s.samples, s.target, s.target_floor, s.max_samples, s.report};
-}
-
 Estimate answered(Quadrature& quadrature, const scene::Scene& scene, const Spectrum& largest,
                   const WhittedSettings& settings, const SamplingTarget& target, Run& run) {
   const std::uint64_t most = settings.samples > 0 ? settings.samples : settings.max_samples;

@@ -35,7 +35,7 @@ class TwoPassed final : public PreparedMeasurements {
   TwoPassed(const TwoPassEstimator& at_places, const TwoPassEstimator& at_pixels,
             const measure::SurfaceSolution& solution, std::span<const measure::Measurement> asked)
       : PreparedMeasurements(at_places.paths().scene(), asked,
-                             at_places.paths().rare_lights()),  // to pixels too: those of their paths come to none else
+                             at_places.paths().rare_lights()),  // pixels lack such where places do
         at_places_(at_places),
         at_pixels_(at_pixels),
         solution_(solution) {}
@@ -101,11 +101,6 @@ void add_errors(const TwoPassed& measurements, std::span<Estimate> found, Run& r
       if (each.claim != Claim::none) each.claim = Claim::estimated;
     }
   });
-}
-
-SamplingSettings sampling_of(const TwoPassSettings& settings) {
-  const PathTracerSettings defaults;
-  return {settings.samples, settings.target, defaults.target_floor, defaults.max_samples, settings.report};
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ struct TwoPassSettings {
   measure::PathClasses paths = measure::PathClasses::all();  ///< all: the solution cannot leave any out
   measure::SurfaceSolution solution;                         ///< of A(D|S)*
   SampleReport* report = nullptr;                            ///< of the samples, to be added to; null: none
+  double target_floor = 0.1;  ///< ... or relative to this part of the scene's mean irradiance
+  std::uint64_t max_samples = 1u << 26;
 };
 
 /// Two passes [Sillion and Puech 1989]: radiosity for what is diffuse, by way of mirrors and smooth glass too, and paths
