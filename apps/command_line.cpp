@@ -70,11 +70,11 @@ void add_validate(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember(montecarlo::integrator_names()))
       ->capture_default_str();
   command->add_option("--elements", options->elements, "Elements to judge, a stratified choice")
-      ->check(CLI::Range(1, 100000000))
+      ->check(whole(1, 100000000))
       ->capture_default_str();
   command->add_flag("--all", options->all_elements, "Judge every element");
   command->add_option("--picture-spp", options->picture_samples, "Samples per pixel of the traced picture")
-      ->check(CLI::Range(1, 1 << 20))
+      ->check(whole(1, 1 << 20))
       ->capture_default_str();
 }
 
@@ -95,7 +95,7 @@ void add_render(CLI::App& app, Command& chosen) {
   command->add_flag("--gather", options->gather,
                     "Pixels are the iterated solution, E + rho T B_h: shadows as they are, not as elements have them");
   command->add_option("--rays", options->rays, "A pixel, rounded to a square")
-      ->check(CLI::Range(1, 4096))
+      ->check(whole(1, 4096))
       ->default_str(core::format("%d; beside mirrors and glass %d, with --gather %d", rays_a_pixel, rays_by_mirrors,
                                  rays_by_mirrors_gathered));
 }
@@ -153,15 +153,17 @@ void add_compare(CLI::App& app, Command& chosen) {
           "--spp", options->samples,
           "Samples per pixel of the pictures, and of those on which a pair is compared where it finds different "
           "paths; of whitted rounded up to a multiple of 16")
-      ->check(CLI::Range(2, 1 << 20))
+      ->check(whole(2, 1 << 20))
       ->capture_default_str();
   command
       ->add_option(
           "--replications", options->replications,
-          "Small runs of other seeds, with as many samples again in all, by which the mean z is judged; 0: none")
-      ->check(CLI::Range(0, 4096))
+          "Small runs of other seeds, by which the mean z is judged, with as many samples again in all, and nearly as "
+          "much time; 0: none")
+      ->check(whole(0, 4096))
       ->capture_default_str();
-  add_no_pictures(*command, options->pictures, "Draw no pictures: no PNG, and no EXR");
+  add_no_pictures(*command, options->pictures,
+                  "Draw no pictures: no PNG, and no EXR; they take the longer the more pixels a camera has, by --spp");
   add_intersector(*command, options->intersector, "Ray caster");
 }
 
@@ -213,8 +215,14 @@ void add_compare_form_factors(CLI::App& app, Command& chosen) {
 }
 
 void add_solvers(CLI::App& app, Command& chosen) {
-  add_command<SolversOptions>(app, "solvers", "The linear solvers, a line each", "interflect solvers", solvers,
-                              std::make_shared<SolversOptions>(), chosen);
+  add_command<SolversOptions>(app, "solvers", "The linear solvers: which ones sample, and which ones solve takes",
+                              "interflect solvers", solvers, std::make_shared<SolversOptions>(), chosen);
+}
+
+void add_integrators(CLI::App& app, Command& chosen) {
+  add_command<ListOptions>(app, "integrators",
+                           "The Monte Carlo integrators: what they promise, which paths of light they find and miss",
+                           "interflect integrators", integrators, std::make_shared<ListOptions>(), chosen);
 }
 
 void add_compare_solvers(CLI::App& app, Command& chosen) {
@@ -226,7 +234,10 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
       compare_solvers, options, chosen);
   add_scene(*command, options->scene);
   add_folder(*command, options->out, "the table and the plots");
-  command->add_option("--solvers", options->solvers, "Which ones; default: all but `automatic`, which is one of them")
+  command
+      ->add_option("--solvers", options->solvers,
+                   "Which ones; default: all but `automatic`, which is one of them, and without --goal those for one "
+                   "number (interflect solvers)")
       ->check(CLI::IsMember(solvers::solver_names()));
   command
       ->add_option("--goal", options->goal,
@@ -264,7 +275,7 @@ void add_shoot(CLI::App& app, Command& chosen) {
   add_scene(*command, options->scene);
   add_folder(*command, options->out);
   command->add_option("--every", options->every, "Shots after which there is a picture and a .vtu; 0: at the end alone")
-      ->check(CLI::Range(0, 1 << 30))
+      ->check(whole(0, 1 << 30))
       ->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from the checkpoint that an earlier run left in the folder");
   add_shooting(*command, options->settings);
@@ -354,6 +365,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
   add_view_factors(app, command);
   add_compare_form_factors(app, command);
   add_solvers(app, command);
+  add_integrators(app, command);
   add_compare_solvers(app, command);
   add_shoot(app, command);
   add_dim(app, command);

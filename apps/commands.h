@@ -12,6 +12,9 @@ enum ExitStatus : int {
   bad_input = 2
 };
 
+/// What a command is told that only lists what there is: nothing.
+struct ListOptions {};
+
 ExitStatus solve(const SolveOptions& options, const CommonOptions& common, Run& run);
 ExitStatus validate(const ValidateOptions& options, const CommonOptions& common, Run& run);
 ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run& run);
@@ -20,6 +23,7 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
 ExitStatus view_factors(const ViewFactorOptions& options, const CommonOptions& common, Run& run);
 ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const CommonOptions& common, Run& run);
 ExitStatus solvers(const SolversOptions& options, const CommonOptions& common, Run& run);
+ExitStatus integrators(const ListOptions& options, const CommonOptions& common, Run& run);
 ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOptions& common, Run& run);
 ExitStatus shoot(const ShootOptions& options, const CommonOptions& common, Run& run);
 ExitStatus dim(const DimOptions& options, const CommonOptions& common, Run& run);

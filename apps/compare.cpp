@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -13,6 +14,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "core/seconds_since.h"
 #include "results/atomic_file.h"
 #include "results/output_directory.h"
 #include "validation/statistics.h"
@@ -76,7 +78,8 @@ std::vector<Compared> compared(const scene::Scene& scene, const std::vector<Kind
       core::log::warning("stopped: " + kind.name + " were not compared");
       continue;
     }
-    all.push_back({kind, compare_integrators(scene, kind.asked, names, settings, run, options.replications), {}, {}});
+    const montecarlo::ComparisonSettings comparison{options.replications, kind.name};
+    all.push_back({kind, compare_integrators(scene, kind.asked, names, settings, run, comparison), {}, {}});
   }
   return all;
 }
@@ -108,6 +111,7 @@ std::vector<std::string> those_by_themselves() {
 }  // namespace
 
 ExitStatus compare(const CompareOptions& options, const CommonOptions& common, Run& run) {
+  const auto begin = std::chrono::steady_clock::now();
   scene::Scene scene = read_and_note(options.scene);
   require_paths(scene, options.paths);
   std::optional<scene::CameraId> camera, few;
@@ -123,8 +127,13 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
   std::vector<Compared> all = compared(scene, kinds_of(scene, few), names, first_pass, options, run);
   const double z_max = judge(scene, all);
   PicturesDrawn pictures;
+  const auto times = [&] {
+    TimesSpent spent = times_spent(all, first_pass.solution(), pictures);
+    spent.elapsed = core::seconds_since(begin);
+    return spent;
+  };
   const auto record = [&] {
-    return comparison_record(scene, all, options, z_max, run.stop.stop_requested(), pictures);
+    return comparison_record(scene, all, options, z_max, run.stop.stop_requested(), pictures, times());
   };
   const auto write_record = [&] { results::write_json(options.out / "compare.json", record()); };
   results::write_atomically(options.out / "compare.csv", comparison_csv(scene, all));
@@ -138,6 +147,7 @@ ExitStatus compare(const CompareOptions& options, const CommonOptions& common, R
     if (talk) std::printf("%s", pictures_text(pictures).c_str());
   }
   if (common.json) std::printf("%s\n", results::json_text(record()).c_str());
+  if (talk) std::printf("%s", times_text(times()).c_str());
   if (talk) std::printf("written to %s\n", options.out.string().c_str());
   return all_agree(all) && !run.stop.stop_requested() ? success : not_met;
 }

@@ -1,9 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string_view>
 
 #include "apps/commands.h"
 #include "apps/read_scene.h"
-#include "apps/table.h"
 #include "core/format.h"
 #include "fem/method_comparison.h"
 #include "fem/radiosity.h"
@@ -34,13 +35,19 @@ std::string csv_of(const std::vector<MethodScore>& scores) {
   return csv.str();
 }
 
-std::string table_of(const std::vector<MethodScore>& scores) {
-  Table table({"method", "setting", "time s", "largest row error", "mean", "stated", "energy"});
-  for (const MethodScore& s : scores)
-    table.add({s.method, s.setting, core::format("%.3g", s.seconds), core::format("%.2g", s.largest_row_error),
-               core::format("%.2g", s.mean_row_error), core::format("%.2g", s.stated_row_error),
-               core::format("%.2g", s.energy_error)});
-  return table.text();
+constexpr const char* row_pattern = "%-17s  %-31s  %8s  %12s  %9s  %9s  %9s\n";
+
+std::string heading() {
+  return "row error: sum_j |F_ij - exact|, the largest and the mean of all rows; stated: the largest that the method\n"
+         "states; energy: max |sum_j F_ij - exact|, light that is lost or made; time: all of a method's own work\n" +
+         core::format(row_pattern, "method", "setting", "time s", "largest", "mean", "stated", "energy");
+}
+
+std::string row_of(const MethodScore& s) {
+  const auto error = [](double value) { return core::format("%.2g", value); };
+  return core::format(row_pattern, s.method.c_str(), s.setting.c_str(), core::format("%.3g", s.seconds).c_str(),
+                      error(s.largest_row_error).c_str(), error(s.mean_row_error).c_str(),
+                      error(s.stated_row_error).c_str(), error(s.energy_error).c_str());
 }
 
 results::Record record_of(const std::vector<MethodScore>& scores, Index elements) {
@@ -59,6 +66,13 @@ results::Record record_of(const std::vector<MethodScore>& scores, Index elements
 }
 
 #ifdef INTERFLECT_WITH_VTK
+/// Where a method's curve is drawn: hemicubes lie on each other, and show if a full marker is below two hollow ones,
+/// which curves have by turns (visual/plot.h).
+std::size_t place_of(const std::string& method) {
+  constexpr std::array<std::string_view, 4> first{"hemicube-midpoint", "hemicube", "global-lines", "hemicube-max"};
+  return static_cast<std::size_t>(std::find(first.begin(), first.end(), method) - first.begin());
+}
+
 /// Mean row error against time, a curve a method; the reference has no error of its own.
 void write_plot(const std::filesystem::path& file, const std::vector<MethodScore>& scores) {
   visual::Plot plot{"form factors: error against time", "time [s]", "mean over rows of sum_j |F_ij - exact|", {}};
@@ -68,6 +82,8 @@ void write_plot(const std::filesystem::path& file, const std::vector<MethodScore
     plot.curves.back().x.push_back(s.seconds);
     plot.curves.back().y.push_back(s.mean_row_error);
   }
+  std::stable_sort(plot.curves.begin(), plot.curves.end(),
+                   [](const auto& a, const auto& b) { return place_of(a.name) < place_of(b.name); });
   results::write_png(file, visual::plot_picture(plot));
 }
 #endif
@@ -86,10 +102,10 @@ ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const 
                 core::format_count(static_cast<unsigned long long>(mesh.size())).c_str(), box_text(scene).c_str());
   std::fflush(stdout);
   const auto rays = raycast::make_ray_caster("embree", scene);
-  const auto told = [&](const MethodScore& s) {
+  if (talk) std::fputs(heading().c_str(), stdout);
+  const auto told = [&](const MethodScore& s) {  // the table grows: the whole takes minutes
     if (!talk) return;
-    std::printf("%s, %s: %.3g s, mean row error %.2g\n", s.method.c_str(), s.setting.c_str(), s.seconds,
-                s.mean_row_error);
+    std::fputs(row_of(s).c_str(), stdout);
     std::fflush(stdout);
   };
   const std::vector<MethodScore> scores =
@@ -99,7 +115,7 @@ ExitStatus compare_form_factors(const CompareFormFactorsOptions& options, const 
   write_plot(options.out / "form_factors.png", scores);
 #endif
   if (common.json) std::printf("%s\n", results::json_text(record_of(scores, mesh.size())).c_str());
-  if (talk) std::printf("\n%s\nwritten to %s\n", table_of(scores).c_str(), options.out.string().c_str());
+  if (talk) std::printf("\nwritten to %s\n", options.out.string().c_str());
   return success;
 }
 

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "apps/commands.h"
 #include "apps/goals.h"
 #include "apps/read_scene.h"
 #include "apps/table.h"
+#include "core/error.h"
 #include "core/format.h"
 #include "fem/solver_comparison.h"
 #include "results/atomic_file.h"
@@ -62,8 +64,25 @@ std::string refusals_text(const fem::SolverComparison& comparison) {
   return text;
 }
 
+/// What the numbers of the table are.
+std::string legend_of(const fem::SolverComparison& comparison, const std::string& goal) {
+  const auto any = [&](auto which) { return std::any_of(comparison.scores.begin(), comparison.scores.end(), which); };
+  const bool sampled = any([](const SolverScore& score) { return score.samples; });
+  std::string text = "error: relative, ";
+  text += comparison.of_goal ? "of '" + goal + "'" : std::string("L2 over the surfaces");
+  text += ", against the solution of the same equations; what elements cannot show is in none\n";
+  text += "work: until the error is below, in sweeps (each uses the whole matrix once; form factors are not counted)";
+  text += sampled ? ",\n      or in rays of those that sample, which stop at the noise that --noise asks for\n" : "\n";
+  if (sampled && comparison.of_goal)
+    text += "      by the standard error that they state: one number that is sampled may be near the truth by luck\n";
+  if (any([](const SolverScore& score) { return score.solver == "continuous-shooting"; }))
+    text +=
+        "continuous-shooting finds light itself, from which the solution of the equations differs: so does its error\n";
+  return text;
+}
+
 std::string table_of(const fem::SolverComparison& comparison) {
-  Table table({"solver", "sweeps to 10 %", "1 %", "1e-6", "seconds to 1e-6", "error", "time s", "stopped"});
+  Table table({"solver", "work to 10 %", "to 1 %", "to 1e-6", "s to 1e-6", "error at end", "s in all", "stopped"});
   for (const SolverScore& score : comparison.scores) {
     std::vector<std::string> row{score.solver};
     for (const double error : milestones) {
@@ -137,9 +156,18 @@ bool is_compared(const std::string& solver, bool with_goal) {
          (with_goal || solvers::solver_named(solver).needs != solvers::SolverEntry::Needs::target);
 }
 
+/// Before the work: those of one number have nothing to do without it.
+void require_goal(const std::vector<std::string>& solvers) {
+  for (const std::string& solver : solvers)
+    if (!is_compared(solver, false) && solver != "automatic")
+      throw core::InputError("solver '" + solver + "'",
+                             "it finds one number, and --goal says which: a sensor, a surface, or camera:NAME");
+}
+
 }  // namespace
 
 ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOptions& common, Run& run) {
+  if (options.goal.empty()) require_goal(options.solvers);
   const scene::Scene scene = read_to_solve(options.scene);
   std::optional<fem::Goal> goal;
   if (!options.goal.empty()) goal = goal_named(options.goal, scene, measure::sensor_points(scene));
@@ -147,7 +175,7 @@ ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOpt
   const bool talk = !common.json && !common.quiet;
   const auto told = [&](const SolverScore& score) {
     if (!talk) return;
-    std::printf("%s: %s\n", score.solver.c_str(), score.why.c_str());
+    std::printf("%s: %s\n", score.solver.c_str(), refused(score) ? "refused" : score.why.c_str());
     std::fflush(stdout);
   };
   std::vector<std::string> names = options.solvers;
@@ -161,10 +189,11 @@ ExitStatus compare_solvers(const CompareSolversOptions& options, const CommonOpt
 #endif
   if (common.json) std::printf("%s\n", results::json_text(record_of(comparison)).c_str());
   if (talk)
-    std::printf("\n%s elements, %s unknowns\n%s\nwritten to %s\n",
+    std::printf("\n%s elements, %s unknowns\n%s\n%s\nwritten to %s\n",
                 core::format_count(static_cast<unsigned long long>(comparison.elements)).c_str(),
                 core::format_count(static_cast<unsigned long long>(comparison.unknowns)).c_str(),
-                table_of(comparison).c_str(), options.out.string().c_str());
+                legend_of(comparison, goal ? goal->name : "").c_str(), table_of(comparison).c_str(),
+                options.out.string().c_str());
   return success;
 }
 

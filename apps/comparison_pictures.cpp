@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "core/processor_time.h"
 #include "montecarlo/integrators.h"
 #include "montecarlo/render.h"
 #include "results/comparison_panels.h"
@@ -48,7 +49,8 @@ bool shares_errors(const std::string& integrator) {
   return entry.by_quadrature || entry.inherits_error;
 }
 
-core::Image beside(const scene::Scene& scene, const DifferenceDrawn& told, const Rendering& a, const Rendering& b) {
+results::ComparisonPanels panels_of(const scene::Scene& scene, const DifferenceDrawn& told, const Rendering& a,
+                                    const Rendering& b) {
   core::Image own(a.radiance.width, a.radiance.height, a.radiance.channels), shared = own;
   const auto add = [&](const std::string& integrator, const core::Image& error) {
     core::Image& sum = shares_errors(integrator) ? shared : own;
@@ -56,12 +58,24 @@ core::Image beside(const scene::Scene& scene, const DifferenceDrawn& told, const
   };
   add(told.a, a.standard_error);
   add(told.b, b.standard_error);
-  const auto panels = results::comparison_panels(scene, a.radiance, b.radiance, own, difference_scale, &shared);
+  return results::comparison_panels(scene, a.radiance, b.radiance, own, difference_scale, &shared);
+}
+
+core::Image beside(const results::ComparisonPanels& panels, const DifferenceDrawn& told, std::uint64_t samples) {
   return beside_each_other(
       panels,
-      {told.a + but(told.of) + ", " + core::format_count(a.samples) + " samples a pixel", told.b + but(told.of),
-       core::format("(%s - %s) / mean, white within 3 standard errors", told.a.c_str(), told.b.c_str())},
+      {told.a + but(told.of) + ", " + core::format_count(samples) + " samples a pixel", told.b + but(told.of),
+       core::format("(%s - %s) / mean, white within 3 standard errors%s", told.a.c_str(), told.b.c_str(),
+                    told.apart.is_explained() ? "" : ": more than they explain")},
       difference_scale);
+}
+
+/// Light that errors of one picture or the other do not know of.
+std::string rare_light(const DifferenceDrawn& told, const Rendering& a, const Rendering& b) {
+  std::string text;
+  for (const auto& [by, of] : {std::pair{&told.a, &a}, {&told.b, &b}})
+    if (!of->report.rare.empty()) text += (text.empty() ? "" : "; ") + *by + ": " + of->report.rare;
+  return text;
 }
 
 /// Whether it is the name of what a comparison draws, by whichever integrators.
@@ -103,6 +117,7 @@ class Artist {
   /// Pictures first, with the differences of those that are of the same paths; then what takes pictures once more.
   /// @throws core::Interrupted  before all are drawn
   void draw() {
+    const core::ProcessorTime timed(drawn_.processor_seconds);
     for (std::size_t k = 0; k < own_.size(); ++k) {
       draw_own(k);
       for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -149,7 +164,9 @@ class Artist {
     settings.samples = samples_of(integrator, options_);
     settings.paths = of.paths;
     settings.solution = solution_;
-    Rendering picture = montecarlo::render(scene_, camera_, settings, run_, *rays_);
+    core::Progress progress(run_.progress, "pictures: " + integrator + but(of));
+    Run labelled{run_.seed, run_.threads, progress, run_.stop};
+    Rendering picture = montecarlo::render(scene_, camera_, settings, labelled, *rays_);
     if (!picture.complete)
       core::log::warning(core::format("stopped: the picture by %s%s has %llu samples a pixel", integrator.c_str(),
                                       but(of).c_str(), static_cast<unsigned long long>(picture.samples)));
@@ -168,6 +185,8 @@ class Artist {
     }
     told.samples = own_[k]->samples;
     told.complete = own_[k]->complete;
+    told.report = own_[k]->report;
+    told.heavy = told.report.heavy_text_of_picture(own_[k]->radiance.width, own_[k]->radiance.height);
     told.refused.clear();
     const std::string name = file_of(told.by, told.of);
     results::write_image(file(name + ".exr", told.files), with_errors_and_samples(*own_[k]));
@@ -215,7 +234,10 @@ class Artist {
     told.complete = a.complete && b.complete;
     told.refused.clear();
     const std::string name = "compared_" + told.a + "_" + told.b;
-    results::write_png(file(name + ".png", told.files), beside(scene_, told, a, b));
+    const results::ComparisonPanels panels = panels_of(scene_, told, a, b);
+    told.apart = panels.apart;
+    told.rare = rare_light(told, a, b);
+    results::write_png(file(name + ".png", told.files), beside(panels, told, a.samples));
     results::write_image(file(name + ".exr", told.files),
                          results::difference_layers({a.radiance, a.standard_error}, {b.radiance, b.standard_error}));
   }

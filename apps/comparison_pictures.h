@@ -9,6 +9,8 @@
 #include "apps/first_pass.h"
 #include "apps/options.h"
 #include "core/run.h"
+#include "montecarlo/sample_report.h"
+#include "results/comparison_panels.h"
 #include "scene/scene.h"
 
 namespace interflect::apps {
@@ -21,6 +23,8 @@ struct PictureDrawn {
   std::vector<std::string> files{};  ///< their names
   std::uint64_t samples = 0;         ///< a pixel
   bool complete = false;             ///< it has all samples that were asked for
+  montecarlo::SampleReport report{};
+  std::string heavy{};  ///< of those, where one sample is much (SampleReport::heavy_text_of_picture)
 };
 
 /// How two of them differ on the paths that both find, a - b.
@@ -31,11 +35,14 @@ struct DifferenceDrawn {
   std::vector<std::string> files{};
   std::uint64_t samples = 0;  ///< a pixel, of the picture of these paths that has fewer
   bool complete = false;      ///< both of them
+  results::BlocksApart apart{};
+  std::string rare{};  ///< light that errors of one or the other do not know of; empty: none
 };
 
 struct PicturesDrawn {
   std::vector<PictureDrawn> pictures;        ///< in the order of the integrators
   std::vector<DifferenceDrawn> differences;  ///< of each that has paths in common with one before it
+  double processor_seconds = 0;              ///< of all threads, for all of them
 
   std::vector<std::string> files() const;
 };

@@ -31,9 +31,9 @@ std::string missed_by(const Compared& of, const IntegratorPair& pair) {
 }
 
 const char* verdict(const std::vector<Compared>& all) {
-  if (!all_agree(all)) return "THEY DO NOT AGREE";
+  if (!all_agree(all)) return "THEY DO NOT AGREE on what was measured; pictures are not judged";
   const bool any = std::any_of(all.begin(), all.end(), [](const Compared& of) { return !of.agreements.empty(); });
-  return any ? "all agree" : "nothing was held against anything";
+  return any ? "all agree on what was measured; pictures are not judged" : "nothing was held against anything";
 }
 
 /// Why 1 / (variance x time) says nothing of a trial; empty where it does.
@@ -66,9 +66,9 @@ std::string efficiency_table(const scene::Scene& scene, const std::vector<Compar
   return table.text() + without;
 }
 
-/// Of integrators whose error bound is that of a solution made before: samples do not lower it.
+/// Of integrators whose error bound is that of a solution made before, or of a quadrature at its end.
 bool is_beyond_by_its_bound(const scene::Scene& scene, const IntegratorTrial& trial, double target) {
-  return montecarlo::integrator_entry(trial.integrator).inherits_error && trial.relative_errors(scene).bound > target;
+  return trial.refused.empty() && trial.relative_errors(scene).bound > target;
 }
 
 std::string agreement_table(const std::vector<Compared>& all, double z_max) {
@@ -93,7 +93,7 @@ std::string sample_texts(const std::vector<Compared>& all) {
   for (const Compared& of : all) {
     const auto add = [&](const std::string& who, const montecarlo::SampleReport& report) {
       if (!report.heavy.empty()) text += of.kind.name + " by " + who + ": " + report.heavy_text(of.kind.names) + "\n";
-      if (!report.rare.empty()) text += of.kind.name + " by " + who + ": " + report.rare + "\n";
+      if (!report.rare.empty()) text += of.kind.name + " by " + who + ", " + report.rare_text(of.kind.names) + "\n";
       if (report.not_finite > 0)
         text += core::format("%s by %s: %llu samples were not finite and count as zero: a bug\n", of.kind.name.c_str(),
                              who.c_str(), static_cast<unsigned long long>(report.not_finite));
@@ -112,9 +112,11 @@ std::string bound_texts(const scene::Scene& scene, const std::vector<Compared>& 
       if (!is_beyond_by_its_bound(scene, trial, target)) continue;
       const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
       text += core::format(
-          "%s misses --target %.3g %% of %s by its error bound, %.2g %% beside a noise of %.2g %%: more samples do not "
-          "lower that, it is of the solution that they start from\n",
-          trial.integrator.c_str(), 100 * target, of.kind.name.c_str(), 100 * errors.bound, 100 * errors.noise);
+          "%s misses --target %.3g %% of %s by its error bound, %.2g %% beside a noise of %.2g %%: %s\n",
+          trial.integrator.c_str(), 100 * target, of.kind.name.c_str(), 100 * errors.bound, 100 * errors.noise,
+          montecarlo::integrator_entry(trial.integrator).inherits_error
+              ? "more samples do not lower that, it is of the solution that they start from"
+              : "all the points that its quadrature may have do not lower it further");
     }
   return text;
 }
@@ -123,7 +125,7 @@ void add_samples(const montecarlo::SampleReport& report, const std::vector<std::
                  results::Record& record) {
   record.add("samples_not_finite", report.not_finite).add("by_one_sample", report.heavy.size());
   if (!report.heavy.empty()) record.add("worst_by_one_sample", report.heavy_text(names));
-  if (!report.rare.empty()) record.add("rare_light", report.rare);
+  if (!report.rare.empty()) record.add("rare_light", report.rare_text(names));
 }
 
 std::string refusals(const std::vector<Compared>& all) {
@@ -185,7 +187,10 @@ results::Record record_of(const PictureDrawn& picture) {
   results::Record record;
   record.add("integrator", picture.by).add("paths", picture.of.paths.expression()).add("missed", picture.of.missed);
   if (!picture.refused.empty()) return record.add("refused", picture.refused);
-  return record.add("files", picture.files).add("samples", picture.samples).add("complete", picture.complete);
+  record.add("files", picture.files).add("samples", picture.samples).add("complete", picture.complete);
+  record.add("samples_not_finite", picture.report.not_finite).add("by_one_sample", picture.report.heavy.size());
+  if (!picture.report.rare.empty()) record.add("rare_light", picture.report.rare);
+  return record;
 }
 
 results::Record record_of(const DifferenceDrawn& difference) {
@@ -194,7 +199,33 @@ results::Record record_of(const DifferenceDrawn& difference) {
       .add("paths", difference.of.paths.expression())
       .add("missed", difference.of.missed);
   if (!difference.refused.empty()) return record.add("refused", difference.refused);
-  return record.add("files", difference.files).add("samples", difference.samples).add("complete", difference.complete);
+  record.add("files", difference.files).add("samples", difference.samples).add("complete", difference.complete);
+  const results::BlocksApart& apart = difference.apart;
+  record.add("blocks", apart.blocks).add("blocks_brighter", apart.brighter).add("blocks_darker", apart.darker);
+  record.add("blocks_by_chance", apart.by_chance()).add("explained_by_errors", apart.is_explained());
+  if (!difference.rare.empty()) record.add("rare_light", difference.rare);
+  return record;
+}
+
+/// Of one that errors do not explain.
+std::string text_of(const DifferenceDrawn& difference) {
+  const results::BlocksApart& apart = difference.apart;
+  return core::format(
+             "%s: of %zu blocks %s is brighter in %zu and darker in %zu by more than three standard errors, of which "
+             "chance explains %zu: errors of %llu samples a pixel do not know all, as of light that "
+             "is met rarely",
+             difference.files.front().c_str(), apart.blocks, difference.a.c_str(), apart.brighter, apart.darker,
+             apart.by_chance(), static_cast<unsigned long long>(difference.samples)) +
+         (difference.rare.empty() ? "" : " (" + difference.rare + ")") + "\n";
+}
+
+results::Record record_of(const TimesSpent& times) {
+  return results::Record()
+      .add("solving", times.solving)
+      .add("measuring", times.comparing.measuring)
+      .add("on_common_paths", times.comparing.on_common_paths)
+      .add("replications", times.comparing.replications)
+      .add("pictures", times.pictures);
 }
 
 template <class Drawn>
@@ -255,15 +286,49 @@ std::string comparison_csv(const scene::Scene& scene, const std::vector<Compared
 
 std::string pictures_text(const PicturesDrawn& pictures) {
   std::string text;
-  for (const PictureDrawn& each : pictures.pictures)
-    if (!each.of.missed.empty() && each.refused.empty())
-      text += each.files.back() + ": all that " + each.by + " finds, not such paths as " + each.of.missed + "\n";
+  for (const PictureDrawn& each : pictures.pictures) {
+    if (!each.refused.empty()) continue;
+    const std::string& file = each.files.back();
+    if (!each.of.missed.empty())
+      text += file + ": all that " + each.by + " finds, not such paths as " + each.of.missed + "\n";
+    for (const std::string& line : {each.report.rare, each.heavy})
+      if (!line.empty()) text += file + ": " + line + "\n";
+    if (each.report.not_finite > 0)
+      text += core::format("%s: %llu samples were not finite and count as zero: a bug\n", file.c_str(),
+                           static_cast<unsigned long long>(each.report.not_finite));
+  }
+  for (const DifferenceDrawn& each : pictures.differences)
+    if (each.refused.empty() && !each.apart.is_explained()) text += text_of(each);
   return text;
+}
+
+TimesSpent times_spent(const std::vector<Compared>& all, const measure::SurfaceSolution& solution,
+                       const PicturesDrawn& pictures) {
+  TimesSpent spent{.solving = solution.processor_seconds, .pictures = pictures.processor_seconds};
+  for (const Compared& of : all) {
+    spent.comparing.measuring += of.comparison.times.measuring;
+    spent.comparing.on_common_paths += of.comparison.times.on_common_paths;
+    spent.comparing.replications += of.comparison.times.replications;
+  }
+  return spent;
+}
+
+std::string times_text(const TimesSpent& times) {
+  std::string text;
+  const auto add = [&](double seconds, const char* what) {
+    if (seconds > 0) text += (text.empty() ? "" : ", ") + core::format_duration(seconds) + " " + what;
+  };
+  add(times.solving, "for the solution that some start from");
+  add(times.comparing.measuring, "measuring (the table's column)");
+  add(times.comparing.on_common_paths, "once more on the paths that pairs have in common");
+  add(times.comparing.replications, "in replications (--replications)");
+  add(times.pictures, "for pictures (--spp, --no-pictures)");
+  return "took " + core::format_duration(times.elapsed) + "; processors " + text + "\n";
 }
 
 results::Record comparison_record(const scene::Scene& scene, const std::vector<Compared>& all,
                                   const CompareOptions& options, double z_max, bool stopped,
-                                  const PicturesDrawn& pictures) {
+                                  const PicturesDrawn& pictures, const TimesSpent& times) {
   results::Record::List kinds;
   for (const Compared& of : all) {
     results::Record::List trials, pairs;
@@ -280,6 +345,7 @@ results::Record comparison_record(const scene::Scene& scene, const std::vector<C
   record.add("scene", options.scene.string()).add("target", options.target).add("paths", options.paths);
   record.add("pictures", pictures.files()).add("drawn", records_of(pictures.pictures));
   record.add("differences", records_of(pictures.differences));
+  record.add("seconds", times.elapsed).add("processor_seconds", record_of(times));
   return record.add("agree", all_agree(all)).add("z_max", z_max).add("stopped", stopped).add("kinds", std::move(kinds));
 }
 

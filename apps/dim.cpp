@@ -10,6 +10,9 @@
 #include "core/format.h"
 #include "fem/error_summary.h"
 #include "results/factors.h"
+#ifdef INTERFLECT_WITH_VTK
+#include "apps/field_pictures.h"
+#endif
 
 namespace interflect::apps {
 namespace {
@@ -50,6 +53,16 @@ results::Record record_of(const SolvedScene& solved, const results::LightGroups&
       .add("relative_noise_l2", error.relative_noise_l2);
 }
 
+#ifdef INTERFLECT_WITH_VTK
+/// In the colours of full output, so that what is dimmed is darker.
+void write_pictures(const SolvedScene& solved, const results::LightGroups& all, const std::vector<double>& factors,
+                    const std::filesystem::path& folder) {
+  PictureScale scale = scale_of(dimmed(all, std::vector<double>(all.groups.size(), 1.0)));
+  scale.note = dimming_text(all, factors);
+  write_field_pictures(solved, nullptr, folder, scale);
+}
+#endif
+
 }  // namespace
 
 ExitStatus dim(const DimOptions& options, const CommonOptions& common, Run&) {
@@ -67,7 +80,10 @@ ExitStatus dim(const DimOptions& options, const CommonOptions& common, Run&) {
   solved.rays = raycast::make_ray_caster("embree", solved.scene);  // of what is in view
   const std::filesystem::path out = options.out.empty() ? options.solution / "dimmed" : options.out;
   solved.folder = std::make_unique<results::OutputDirectory>(out);
-  write_tables_and_field(solved, out, options.pictures);
+  write_tables_and_field(solved, out, false);
+#ifdef INTERFLECT_WITH_VTK
+  if (options.pictures) write_pictures(solved, all, factors, out);
+#endif
   const results::Record record = record_of(solved, all, factors, options, common);
   results::write_json(out / "summary.json", record);
   if (common.json)

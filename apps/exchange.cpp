@@ -9,6 +9,7 @@
 #include "apps/solution_files.h"
 #include "apps/solved_scene.h"
 #include "apps/table.h"
+#include "apps/with_error.h"
 #include "core/format.h"
 #include "core/log.h"
 #include "fem/thermal_exchange.h"
@@ -32,33 +33,28 @@ using fem::ThermalSurface;
 
 std::string csv_of(const ThermalExchange& exchange) {
   results::Csv csv;
-  for (const char* heading : {"name", "area", "emissivity", "temperature", "temperature_error", "heat_flux",
-                              "heat_flux_error", "flux", "radiosity", "irradiance"})
+  for (const char* heading :
+       {"name", "area", "emissivity", "temperature", "temperature_error", "heat_flux", "heat_flux_error", "flux",
+        "flux_error", "radiosity", "radiosity_error", "irradiance", "irradiance_error"})
     csv.text(heading);
   csv.end_line();
   for (const ThermalSurface& s : exchange.surfaces) {
-    csv.text(s.name)
-        .number(s.area)
-        .number(s.emissivity)
-        .number(s.temperature)
-        .number(s.temperature_error)
-        .number(s.heat_flux);
-    csv.number(s.heat_flux_error).number(s.heat_flux * s.area).number(s.radiosity).number(s.irradiance).end_line();
+    csv.text(s.name).number(s.area).number(s.emissivity);
+    csv.number(s.temperature).number(s.temperature_error).number(s.heat_flux).number(s.heat_flux_error);
+    csv.number(s.flux()).number(s.flux_error());
+    csv.number(s.radiosity).number(s.radiosity_error).number(s.irradiance).number(s.irradiance_error).end_line();
   }
   return csv.str();
 }
 
-/// "293.15" of what was given, "293.15 +- 0.2" of what was found.
-std::string with_error(double value, double error, bool found) {
-  return found ? core::format("%.6g +- %.2g", value, error) : core::format("%.6g", value);
-}
-
 std::string table_of(const ThermalExchange& exchange) {
   Table table({"surface", "area m2", "emissivity", "T K", "q W/m2", "Q W"});
+  const auto given = [](double value) { return core::format("%.6g", value); };
   for (const ThermalSurface& s : exchange.surfaces)
     table.add({s.name, core::format("%.4g", s.area), core::format("%.4g", s.emissivity),
-               with_error(s.temperature, s.temperature_error, s.flux_given),
-               with_error(s.heat_flux, s.heat_flux_error, !s.flux_given), core::format("%.6g", s.heat_flux * s.area)});
+               s.flux_given ? with_error(s.temperature, s.temperature_error) : given(s.temperature),
+               s.flux_given ? given(s.heat_flux) : with_error(s.heat_flux, s.heat_flux_error),
+               s.flux_given ? given(s.flux()) : with_error(s.flux(), s.flux_error())});
   return table.text();
 }
 
@@ -74,10 +70,14 @@ results::Record record_of(const ThermalExchange& exchange, const ExchangeOptions
                            .add("heat_flux", s.heat_flux)
                            .add("heat_flux_error", s.heat_flux_error)
                            .add("heat_flux_given", s.flux_given)
+                           .add("flux", s.flux())
+                           .add("flux_error", s.flux_error())
                            .add("elements", static_cast<std::int64_t>(s.elements))
                            .add("elements_without_temperature", static_cast<std::int64_t>(s.without_temperature))
                            .add("radiosity", s.radiosity)
-                           .add("irradiance", s.irradiance));
+                           .add("radiosity_error", s.radiosity_error)
+                           .add("irradiance", s.irradiance)
+                           .add("irradiance_error", s.irradiance_error));
   results::Record record;
   record.add("scene", options.scene.string())
       .add("environment_K", options.environment)
@@ -101,10 +101,14 @@ std::vector<double> of_elements(const ThermalExchange& exchange, double ThermalS
 void write_fields(const std::filesystem::path& file, const ThermalExchange& exchange) {
   const mesh::ElementMesh& mesh = exchange.solution.mesh;
   std::vector<results::CellField> fields = results::id_fields(mesh);
-  fields.push_back(results::scalar_field("temperature", of_elements(exchange, &ThermalState::temperature)));
-  fields.push_back(results::scalar_field("heat_flux", of_elements(exchange, &ThermalState::heat_flux)));
-  fields.push_back(results::scalar_field("radiosity", of_elements(exchange, &ThermalState::radiosity)));
-  fields.push_back(results::scalar_field("irradiance", of_elements(exchange, &ThermalState::irradiance)));
+  const auto add = [&](const std::string& name, double ThermalState::*value, double ThermalState::*error) {
+    fields.push_back(results::scalar_field(name, of_elements(exchange, value)));
+    fields.push_back(results::scalar_field(name + "_error", of_elements(exchange, error)));
+  };
+  add("temperature", &ThermalState::temperature, &ThermalState::temperature_error);
+  add("heat_flux", &ThermalState::heat_flux, &ThermalState::heat_flux_error);
+  add("radiosity", &ThermalState::radiosity, &ThermalState::radiosity_error);
+  add("irradiance", &ThermalState::irradiance, &ThermalState::irradiance_error);
   results::write_vtu(file, mesh, fields);
 }
 
@@ -131,8 +135,8 @@ void write_pictures(const std::filesystem::path& folder, const scene::Scene& sce
 #endif
 
 /// Warns of what it fell short of.
-void warn_of(const scene::Scene& scene, const ThermalExchange& exchange, const fem::RadiositySettings& settings) {
-  for (const std::string& warning : energy_warnings(scene, exchange.solution)) core::log::warning(warning);
+void warn_of(const ThermalExchange& exchange, const fem::RadiositySettings& settings) {
+  for (const std::string& warning : energy_warnings(exchange.problem, exchange.solution)) core::log::warning(warning);
   for (const std::string& shortfall : shortfalls_of(exchange.solution, settings)) core::log::shortfall(shortfall);
   for (const ThermalSurface& s : exchange.surfaces)
     if (s.without_temperature > 0)
@@ -155,14 +159,13 @@ ExitStatus exchange(const ExchangeOptions& options, const CommonOptions& common,
 #ifdef INTERFLECT_WITH_VTK
   if (options.pictures) write_pictures(options.out, scene, found);
 #endif
-  warn_of(scene, found, options.settings);
+  warn_of(found, options.settings);
   if (common.json)
     std::printf("%s\n", results::json_text(record).c_str());
   else if (!common.quiet)
     std::printf("%s\nsum of Q %s W (estimated); to the environment %s W by rays (their noise alone)\nwritten to %s\n",
-                table_of(found).c_str(), with_error(found.emitted, found.emitted_error, true).c_str(),
-                with_error(found.to_environment, found.to_environment_error, true).c_str(),
-                options.out.string().c_str());
+                table_of(found).c_str(), with_error(found.emitted, found.emitted_error).c_str(),
+                with_error(found.to_environment, found.to_environment_error).c_str(), options.out.string().c_str());
   return shortfalls_of(found.solution, options.settings).empty() ? success : not_met;
 }
 

@@ -16,11 +16,26 @@ namespace {
 
 using Camera = std::optional<scene::Camera>;
 
+using Rgb = std::array<double, 3>;
+
+std::vector<Rgb> radiances(const scene::Scene& scene, std::span<const Spectrum> radiosity) {
+  std::vector<Rgb> rgb;
+  for (const Spectrum& B : radiosity) rgb.push_back(scene.rgb(B * inv_pi));
+  return rgb;
+}
+
+std::vector<double> weighed(const scene::Scene& scene, std::span<const Spectrum> spectra) {
+  std::vector<double> values;
+  for (const Spectrum& spectrum : spectra) values.push_back(scene.weigh(spectrum));
+  return values;
+}
+
 /// The 98th percentile of what is in view and does not emit: a lamp must not turn the room black.
-double white_of(const SolvedScene& solved, std::span<const std::array<double, 3>> rgb, std::span<const double> shares) {
+double white_of(const scene::Scene& scene, const PictureScale& scale, std::span<const double> shares) {
+  const std::vector<Rgb> rgb = radiances(scene, scale.radiosity);
   std::vector<double> values, weights;
   for (std::size_t i = 0; i < rgb.size(); ++i) {
-    if (!solved.solution.exitance[i].is_zero()) continue;
+    if (!scale.exitance[i].is_zero()) continue;
     values.push_back(std::max({rgb[i][0], rgb[i][1], rgb[i][2]}));
     weights.push_back(shares[i]);
   }
@@ -28,14 +43,14 @@ double white_of(const SolvedScene& solved, std::span<const std::array<double, 3>
 }
 
 core::Image radiosity_picture(const visual::Display& display, const SolvedScene& solved, const Camera& camera,
-                              std::span<const double> shares, const SmoothField* field) {
-  std::vector<std::array<double, 3>> rgb;
-  for (const Spectrum& B : solved.solution.radiosity) rgb.push_back(solved.scene.rgb(B * inv_pi));
-  const visual::TrueColour look{.caption = {}, .white = white_of(solved, rgb, shares), .camera = camera};
-  if (!field || !(look.white > 0)) return visual::true_colour(display, solved.scene, solved.solution.mesh, rgb, look);
-  std::vector<std::array<double, 3>> of_points;
-  for (const Spectrum& B : field->radiosity) of_points.push_back(solved.scene.rgb(B * inv_pi));
-  return visual::true_colour(display, solved.scene, solved.solution.mesh, field->mesh, of_points, look);
+                              std::span<const double> shares, const SmoothField* field, const PictureScale& scale) {
+  const visual::TrueColour look{
+      .caption = {}, .note = scale.note, .white = white_of(solved.scene, scale, shares), .camera = camera};
+  if (!field || !(look.white > 0))
+    return visual::true_colour(display, solved.scene, solved.solution.mesh,
+                               radiances(solved.scene, solved.solution.radiosity), look);
+  return visual::true_colour(display, solved.scene, solved.solution.mesh, field->mesh,
+                             radiances(solved.scene, field->radiosity), look);
 }
 
 std::string quantity_of(const scene::Scene& scene) {
@@ -43,17 +58,17 @@ std::string quantity_of(const scene::Scene& scene) {
 }
 
 core::Image irradiance_picture(const visual::Display& display, const SolvedScene& solved, const Camera& camera,
-                               std::span<const double> shares, const SmoothField* field) {
-  std::vector<double> values;
-  for (const Spectrum& H : solved.solution.irradiance) values.push_back(solved.scene.weigh(H));
+                               std::span<const double> shares, const SmoothField* field, const PictureScale& scale) {
   const visual::FalseColour look{.title = quantity_of(solved.scene) + " [" + solved.scene.irradiance_unit() + "]",
                                  .caption = {},
-                                 .range = range_in_view(values, shares),
+                                 .note = scale.note,
+                                 .range = range_in_view(weighed(solved.scene, scale.irradiance), shares),
                                  .camera = camera};
-  if (!field) return visual::false_colour(display, solved.scene, solved.solution.mesh, values, look);
-  std::vector<double> of_points;
-  for (const Spectrum& H : field->irradiance) of_points.push_back(solved.scene.weigh(H));
-  return visual::false_colour(display, solved.scene, solved.solution.mesh, field->mesh, of_points, look);
+  if (!field)
+    return visual::false_colour(display, solved.scene, solved.solution.mesh,
+                                weighed(solved.scene, solved.solution.irradiance), look);
+  return visual::false_colour(display, solved.scene, solved.solution.mesh, field->mesh,
+                              weighed(solved.scene, field->irradiance), look);
 }
 
 /// How far elements' mean irradiance may be off: proved.  By orders of magnitude, and not as a part of it: in the dark
@@ -73,9 +88,26 @@ core::Image bounds_picture(const visual::Display& display, const SolvedScene& so
   return visual::false_colour(display, solved.scene, solved.solution.mesh, values, look);
 }
 
+void add(std::vector<Spectrum>& sum, std::span<const Spectrum> values) {
+  sum.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) sum[i] += values[i];
+}
+
 }  // namespace
 
-void write_field_pictures(const SolvedScene& solved, const SmoothField* field, const std::filesystem::path& folder) {
+PictureScale scale_of(const fem::RadiositySolution& solution) {
+  if (solution.of_groups.empty()) return {solution.exitance, solution.radiosity, solution.irradiance, {}};
+  PictureScale scale;
+  for (const fem::RadiositySolution& group : solution.of_groups) {
+    add(scale.exitance, group.exitance);
+    add(scale.radiosity, group.radiosity);
+    add(scale.irradiance, group.irradiance);
+  }
+  return scale;
+}
+
+void write_field_pictures(const SolvedScene& solved, const SmoothField* field, const std::filesystem::path& folder,
+                          const PictureScale& scale) {
   const auto display = display_or_warning();
   if (!display) return;
   struct View {
@@ -89,9 +121,9 @@ void write_field_pictures(const SolvedScene& solved, const SmoothField* field, c
   for (const auto& [camera, k] : views) {
     const std::vector<double> shares = shares_in_view(*solved.rays, solved.solution.mesh, camera);
     results::write_png(folder / picture_file("radiosity", k),
-                       radiosity_picture(*display, solved, camera, shares, field));
+                       radiosity_picture(*display, solved, camera, shares, field, scale));
     results::write_png(folder / picture_file("irradiance", k),
-                       irradiance_picture(*display, solved, camera, shares, field));
+                       irradiance_picture(*display, solved, camera, shares, field, scale));
     if (solved.bounds)
       results::write_png(folder / picture_file("bounds", k), bounds_picture(*display, solved, camera, shares));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "measure/light_groups.h"
 #include "results/factors.h"
 
@@ -64,6 +65,17 @@ std::vector<double> dimming_of(const std::vector<std::string>& texts, const resu
     factors[k] = percent ? factor / 100 : factor;
   }
   return factors;
+}
+
+std::string dimming_text(const results::LightGroups& all, const std::vector<double>& factors) {
+  constexpr std::size_t by_name = 3;
+  std::string text;
+  std::size_t dimmed = 0;
+  for (std::size_t g = 0; g < factors.size(); ++g)
+    if (factors[g] != 1 && ++dimmed <= by_name)
+      text += core::format("%s%s %.4g %%", text.empty() ? "" : ", ", all.groups[g].name.c_str(), 100 * factors[g]);
+  if (dimmed > by_name) text += core::format(", and %zu more", dimmed - by_name);
+  return text.empty() ? "all lights at full output" : text + "; same scale as at full output";
 }
 
 fem::RadiositySolution dimmed(const results::LightGroups& all, const std::vector<double>& factors) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 
 #include "apps/heeded_options.h"
 #include "apps/option_validators.h"
@@ -30,12 +31,12 @@ void add_effort(CLI::App& command, const EffortOptions& options) {
       ->transform(count(1e15))
       ->capture_default_str();
   command.add_option("--resolution", options.resolution, "Cells across a hemicube or a plane")
-      ->check(CLI::Range(2, 8192))
+      ->check(whole(2, 8192))
       ->capture_default_str();
   command
       .add_option("--visibility-rays", options.visibility_rays,
                   "Of gauss-lambert and duffy: for a pair that something may hide")
-      ->check(CLI::Range(4, 65536))
+      ->check(whole(4, 65536))
       ->capture_default_str();
   command
       .add_option("--visibility-error", options.visibility_error,
@@ -62,7 +63,7 @@ CLI::Option* add_order(CLI::App& command, fem::RadiositySettings& s, const CLI::
             if (order > 0 && method->empty()) s.form_factors = "analytic";
           },
           "Degree of the polynomials on an element; from 1 on by analytic, gauss-lambert or duffy")
-      ->check(CLI::Range(0, 3));
+      ->check(whole(0, 3));
 }
 
 /// What elements are made for: by polynomials, where no order is asked for.
@@ -138,7 +139,7 @@ void add_solver_settings(CLI::App& command, fem::RadiositySettings& s) {
       .add_option("--steps", s.stopping.max_iterations,
                   "Iterations, or rounds of samples, after which it stops in any case: as many as the record of a run "
                   "says that was stopped give its result again")
-      ->check(CLI::Range(1, 1 << 30))
+      ->check(whole(1, 1 << 30))
       ->capture_default_str();
   command
       .add_option("--unshot", s.stopping.unshot,
@@ -169,7 +170,7 @@ std::vector<std::string> solvers_of_all() {
 void add_solver(CLI::App& command, fem::RadiositySettings& s) {
   command
       .add_option("--solver", s.solver,
-                  "Linear solver; interflect solvers tells of each, and which sample, without a matrix")
+                  "Linear solver; interflect solvers tells of each, and which ones sample, without a matrix")
       ->check(CLI::IsMember(solvers_of_all()))
       ->capture_default_str();
   add_solver_settings(command, s);
@@ -179,10 +180,10 @@ void add_solver(CLI::App& command, fem::RadiositySettings& s) {
 
 void add_common(CLI::App& app, CommonOptions& common) {
   app.add_option("--seed", common.seed, "Same scene, settings and seed: same numbers, bit by bit")
-      ->check(seed())
+      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
   app.add_option("--threads", common.threads, "Threads to use (0: all); results do not depend on it")
-      ->check(CLI::Range(0, 1024))
+      ->check(whole(0, 1024))
       ->capture_default_str();
   app.add_option("--max-time", common.max_time, "Stop after 90s, 15min or 2h as by Ctrl-C: what there is is kept")
       ->transform(duration());
@@ -209,6 +210,7 @@ void add_no_pictures(CLI::App& command, bool& pictures, const std::string& descr
 }
 
 void add_forecast(CLI::App& command, bool& forecast_only, CLI::Option* out) {
+  out->option_text("TEXT REQUIRED without --forecast");
   command.add_flag_callback(
       "--forecast",
       [&forecast_only, out] {
@@ -267,13 +269,13 @@ void add_paths(CLI::App& command, std::string& paths) {
           "--paths", paths,
           "Paths of light that count, from light to eye: L any light (A with an area, P point, F far, B parallel), D "
           "diffuse, G glossy, S mirror or glass, . any of these; ( ) | * + ? as ever")
-      ->check(named("paths"))
+      ->check(given("a class of paths, such as L.*E,"))
       ->capture_default_str();
 }
 
 void add_sampling(CLI::App& command, TraceOptions& options) {
   command.add_option("--spp", options.samples, "Samples per pixel at most; of whitted a multiple of 16")
-      ->check(CLI::Range(1, 1 << 24))
+      ->check(whole(1, 1 << 24))
       ->capture_default_str();
   command.add_option("--filter", options.filter, "How points of the film count for pixels near them")
       ->check(CLI::IsMember(montecarlo::filter_names()))
@@ -287,10 +289,10 @@ void add_sampling(CLI::App& command, TraceOptions& options) {
       ->check(CLI::IsMember(core::sequence_names()))
       ->capture_default_str();
   command
-      .add_option(
-          "--target", options.target,
-          "End the picture where relative standard errors of its pixels, in the root mean square, are below, such as "
-          "5%")
+      .add_option("--target", options.target,
+                  "End the picture where relative standard errors of the pixels that have found light, in the root "
+                  "mean square, "
+                  "are below, such as 5%; exit with 1 if all --spp do not do it")
       ->transform(fraction());
 }
 

@@ -94,11 +94,12 @@ std::string to_fraction(std::string& text, double low, double high) {
       core::format("from %g to %g %%", 100 * low, 100 * high));
 }
 
-std::string no_seed(const std::string& text) {
+std::string no_whole_number(const std::string& text, std::uint64_t least, std::uint64_t most) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return {};
-  return "'" + text + "' is not a whole number from 0 to 18446744073709551615";
+  if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
+  return core::format("'%s' is not a whole number from %llu to %llu", text.c_str(),
+                      static_cast<unsigned long long>(least), static_cast<unsigned long long>(most));
 }
 
 }  // namespace interflect::apps

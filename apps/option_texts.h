@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 /// What a person may write as an option's value.  Each returns a complaint, empty where there is none.
@@ -24,7 +25,7 @@ std::string no_length(const std::string& text);
 std::string to_fraction(std::string& text);
 std::string to_fraction(std::string& text, double low, double high);
 
-/// 0 .. 2^64 - 1: a parser would take "-1" for the largest.
-std::string no_seed(const std::string& text);
+/// Digits alone: a parser would take "-1" for the largest.
+std::string no_whole_number(const std::string& text, std::uint64_t least, std::uint64_t most);
 
 }  // namespace interflect::apps

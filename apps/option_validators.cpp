@@ -23,10 +23,14 @@ CLI::Validator fraction(double low, double high) {
   return {[=](std::string& text) { return to_fraction(text, low, high); },
           core::format("PART in [%g %%, %g %%]", 100 * low, 100 * high)};
 }
-CLI::Validator named(const std::string& what) {
-  return {[=](std::string& text) { return std::string(text.empty() ? "the name of " + what + " is expected" : ""); },
-          ""};
+CLI::Validator given(const std::string& what) {
+  return {[=](std::string& text) { return text.empty() ? what + " is expected" : std::string(); }, ""};
 }
-CLI::Validator seed() { return {no_seed, "NUMBER"}; }
+CLI::Validator named(const std::string& what) { return given("the name of " + what); }
+CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
+  return {
+      [=](std::string& text) { return no_whole_number(text, least, most); },
+      core::format("in [%llu, %llu]", static_cast<unsigned long long>(least), static_cast<unsigned long long>(most))};
+}
 
 }  // namespace interflect::apps

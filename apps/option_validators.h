@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace CLI {
@@ -16,8 +17,9 @@ CLI::Validator duration();
 CLI::Validator length();
 CLI::Validator fraction();
 CLI::Validator fraction(double low, double high);
-CLI::Validator seed();
+CLI::Validator whole(std::uint64_t least, std::uint64_t most);
 /// Not "", as a variable that is not set leaves it, which would pass for none given.
+CLI::Validator given(const std::string& what);
 CLI::Validator named(const std::string& what);
 
 }  // namespace interflect::apps

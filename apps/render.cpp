@@ -53,7 +53,7 @@ results::Record record_of(const Rendered& r) {
 
 ExitStatus render(const RenderOptions& options, const CommonOptions& common, Run& run) {
   if (options.solve.forecast_only) return print_forecast(options.solve, common, run);
-  results::require_image_extension(options.image);
+  results::require_both_images(options.image);
   scene::Scene read = scene_to_solve(options.solve);
   const scene::CameraId camera = camera_named(read, options.camera);  // before the work
   fem::require_point_of_view(read.camera(camera));

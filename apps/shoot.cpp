@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "apps/commands.h"
 #include "apps/read_scene.h"
@@ -17,6 +18,7 @@
 #include "results/checkpoint.h"
 #include "results/csv.h"
 #include "results/factors.h"
+#include "solvers/shooting.h"
 
 namespace interflect::apps {
 namespace {
@@ -83,12 +85,15 @@ class Shooting {
         .add("settings", settings_of(options_, common_))
         .add("elements", solved_.solution.mesh.size())
         .add("emitting_elements", progressive_.emitting())
+        .add("emitting_surfaces", emitting_surfaces())
         .add("shots", shots_.count())
         .add("unshot", progressive_.unshot_fraction(shots_))
         .add("stopped", solvers::describe(report_.why))
         .add("mean_irradiance", error.mean_irradiance)
         .add("mean_irradiance_error", error.mean_error)
         .add("relative_error_l2", error.relative_l2)
+        .add("relative_error_l2_of_elements", error_shares().of_elements)
+        .add("relative_error_l2_of_unshot", error_shares().of_unshot)
         .add("relative_noise_l2", error.relative_noise_l2)
         .add("seconds", seconds())
         .add("warnings", solved_.warnings)
@@ -97,17 +102,64 @@ class Shooting {
 
   std::string text() const {
     return core::format(
-        "\n%s elements, of which %td emit\n%td shots in %s, %s: %s of all that is emitted is unshot\n"
+        "\n%s elements; %zu %s, in %td elements\n%td shots in %s, %s: %s of all that is emitted is unshot\n"
         "%s%s",
-        core::format_count(static_cast<unsigned long long>(solved_.solution.mesh.size())).c_str(),
-        progressive_.emitting(), shots_.count(), core::format_duration(seconds()).c_str(),
-        solvers::describe(report_.why).c_str(), core::format_percent(progressive_.unshot_fraction(shots_)).c_str(),
-        irradiance_text(solved_).c_str(), means_text(solved_).c_str());
+        core::format_count(static_cast<unsigned long long>(solved_.solution.mesh.size())).c_str(), emitting_surfaces(),
+        emitting_surfaces() == 1 ? "surface emits" : "surfaces emit", progressive_.emitting(), shots_.count(),
+        core::format_duration(seconds()).c_str(), solvers::describe(report_.why).c_str(),
+        core::format_percent(progressive_.unshot_fraction(shots_)).c_str(), error_text().c_str(),
+        means_text(solved_).c_str());
   }
+
+  Index shots() const { return shots_.count(); }
 
  private:
   static constexpr double seconds_between_checkpoints = 60;
   static constexpr Index columns = 5;  ///< of the history: shots, seconds, unshot, mean irradiance, its relative error
+
+  /// Those that a user has named; each is cut into elements.
+  std::size_t emitting_surfaces() const {
+    std::set<std::uint32_t> emit;
+    for (const mesh::ElementMesh::Part& part : solved_.solution.mesh.parts())
+      for (std::size_t i = part.first; i < part.first + part.count; ++i)
+        if (!solved_.solution.exitance[i].is_zero()) emit.insert(part.surface.value);
+    return emit.size();
+  }
+
+  /// Of the bound that is stated, L2 over that of irradiance: the ambient term, which any element may have none of, and
+  /// the rest.
+  struct ErrorShares {
+    double of_unshot = 0, of_elements = 0;
+  };
+  ErrorShares error_shares() const {
+    const fem::RadiositySolution& s = solved_.solution;
+    const Eigen::RowVectorXd ambient = solvers::ambient(progressive_.system(), shots_.state.residual);
+    Spectrum unshot;
+    for (int c = 0; c < static_cast<int>(ambient.size()); ++c) unshot[c] = std::abs(ambient(c));
+    const double missing = solved_.scene.weigh(unshot);
+    double ambients = 0, rests = 0, squares = 0;
+    for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+      const double A = s.mesh.patches()[i].area, H = solved_.scene.weigh(s.irradiance[i]),
+                   rest = solved_.scene.weigh(s.irradiance_error[i]) - missing;
+      ambients += A * missing * missing;
+      rests += A * rest * rest;
+      squares += A * H * H;
+    }
+    if (squares == 0) return {};
+    return {std::sqrt(ambients / squares), std::sqrt(rests / squares)};
+  }
+
+  /// What the stated error is of: without a matrix it is wide, and an early picture is far nearer than it says.
+  std::string error_text() const {
+    const auto [of_unshot, of_elements] = error_shares();
+    return irradiance_text(solved_) +
+           core::format(
+               "            %s: what is unshot, as if all of it went elsewhere than evenly to all (more shots, less)\n"
+               "            %s: what light varies by inside elements, in place of what a matrix tells (smaller "
+               "elements, "
+               "less)\n",
+               core::format_percent(of_unshot).c_str(), core::format_percent(of_elements).c_str());
+  }
 
   std::filesystem::path checkpoint_file() const { return options_.out / "shots.h5"; }
   double seconds() const { return seconds_before_ + core::seconds_since(start_); }
@@ -196,7 +248,9 @@ ExitStatus shoot(const ShootOptions& options, const CommonOptions& common, Run& 
   Run to_the_end = run.to_the_end();  // what is written of a run that was stopped is as good as of one that was not
   solved.at_points = answers_at(solved.points, solved.method(), solved.scene, to_the_end);
   shooting.write();
-  if (!shooting.converged()) core::log::shortfall("light is left unshot: --resume goes on from here");
+  if (!shooting.converged())
+    core::log::shortfall(
+        core::format("light is left unshot after %td shots: --resume goes on from here", shooting.shots()));
   if (common.json)
     std::printf("%s\n", results::json_text(shooting.record()).c_str());
   else if (!common.quiet)

@@ -28,12 +28,19 @@ std::uint64_t whole(double bytes) { return static_cast<std::uint64_t>(std::llrou
 
 using fem::RadiositySolution;
 
-/// 95 %: the bound of the irradiance and its noise, as an error of B = E + rho H.
-std::vector<Spectrum> radiosity_errors(const RadiositySolution& solution) {
+/// Half the widths of 95 % intervals, by element.
+std::vector<Spectrum> irradiance_errors(const RadiositySolution& solution) {
   std::vector<Spectrum> errors;
-  for (std::size_t i = 0; i < solution.radiosity.size(); ++i)
-    errors.push_back(solution.reflectance[i] *
-                     (solution.irradiance_error[i] + normal_95 * solution.irradiance_noise[i]));
+  for (std::size_t i = 0; i < solution.irradiance.size(); ++i)
+    errors.push_back(solution.irradiance_error[i] + normal_95 * solution.irradiance_noise[i]);
+  return errors;
+}
+
+/// The same of B = E + rho H.
+std::vector<Spectrum> radiosity_errors(const RadiositySolution& solution, std::span<const Spectrum> of_irradiance) {
+  std::vector<Spectrum> errors;
+  for (std::size_t i = 0; i < of_irradiance.size(); ++i)
+    errors.push_back(results::reflected_error(solution.reflectance[i], of_irradiance[i]));
   return errors;
 }
 
@@ -264,9 +271,11 @@ void write_field(const SolvedScene& solved, const std::filesystem::path& folder,
 
 void write_tables_and_field(const SolvedScene& solved, const std::filesystem::path& folder, bool pictures) {
   const RadiositySolution& s = solved.solution;
+  const std::vector<Spectrum> of_irradiance = irradiance_errors(s), of_radiosity = radiosity_errors(s, of_irradiance);
   results::write_surfaces_csv(
       folder / "surfaces.csv",
-      results::surface_means(solved.scene, s.mesh, s.radiosity, s.irradiance, radiosity_errors(s)), solved.scene);
+      results::surface_means(solved.scene, s.mesh, {s.radiosity, s.irradiance, of_radiosity, of_irradiance}),
+      solved.scene);
   results::write_sensors_csv(
       folder / "sensors.csv", solved.points, solved.at_points, solved.scene,
       solved.bounds ? std::span<const Interval>(solved.bounds->at_points) : std::span<const Interval>());
@@ -314,8 +323,9 @@ std::string means_text(const SolvedScene& solved) {
 
 std::string irradiance_text(const SolvedScene& solved) {
   const fem::ErrorSummary error = fem::summarise_error(solved.solution, solved.scene);
-  return core::format("irradiance  elements are off by about %s (L2, estimated) and have noise of %s\n",
-                      core::format_percent(error.relative_l2).c_str(),
+  const bool matrix = !solved.solution.row_sum.empty();
+  return core::format("irradiance  elements are off by %s %s (L2, estimated) and have noise of %s\n",
+                      matrix ? "about" : "at most about", core::format_percent(error.relative_l2).c_str(),
                       core::format_percent(error.relative_noise_l2).c_str());
 }
 
@@ -342,6 +352,11 @@ std::string solution_text(const SolvedScene& solved) {
                          s.rows.highest);
   text += matrix_text(s);
   text += irradiance_text(solved);
+  if (s.row_sum.empty())
+    text +=
+        "            no matrix tells what smaller elements would change: what light varies by inside these stands for "
+        "it,\n"
+        "            which more rays do not lower\n";
   if (solved.bounds) text += bounds_text(solved, *solved.bounds);
   if (solved.residual) text += residual_text(solved, *solved.residual);
   text += solver_text(s.solver, s.row_sum.empty());

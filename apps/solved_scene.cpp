@@ -203,6 +203,18 @@ static bool is_part_of_more(const fem::RadiositySolution& solution) {
          solution.solver.why == Stopped::time_limit;
 }
 
+/// That it was stopped is said when that is asked; at the end it is said what that leaves.
+static fem::RadiositySolution solution_of(const scene::Scene& scene, const fem::RadiositySettings& settings, Run& run) {
+  try {
+    return fem::solve_radiosity(scene, settings, run);
+  } catch (const core::Interrupted&) {
+    const bool samples = solvers::solver_named(settings.solver).samples();
+    throw core::Interrupted(
+        std::string("the solve, before there is a solution: nothing is written") +
+        (samples ? "" : " (interflect shoot, or a --solver that samples, would have had something to keep)"));
+  }
+}
+
 std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions& options, const CommonOptions& common,
                                          Run& asked) {
   auto points = measure::sensor_points(scene);  // before the work: they are what else may be too much
@@ -221,7 +233,7 @@ std::unique_ptr<SolvedScene> solve_scene(scene::Scene scene, const SolveOptions&
                     : "");
   }
   std::fflush(stdout);
-  auto solution = fem::solve_radiosity(scene, settings, asked);
+  auto solution = solution_of(scene, settings, asked);
   Run run = is_part_of_more(solution) ? asked.to_the_end() : asked;
   auto solved = std::make_unique<SolvedScene>(std::move(scene), forecast, std::move(solution));
   solved->folder = std::move(folder);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -68,18 +69,24 @@ void write_estimates(const scene::Scene& scene, const TraceOptions& options, con
   results::write_surfaces_csv(options.estimates / "surfaces.csv", rows, scene);
   results::write_sensors_csv(options.estimates / "sensors.csv", questions.points,
                              std::span(found).subspan(means.size()), scene);
-  told = {report.not_finite, report.heavy.size(), report.heavy_text(names_of(scene, questions)), report.rare};
+  const std::vector<std::string> names = names_of(scene, questions);
+  told = {report.not_finite, report.heavy.size(), report.heavy_text(names), report.rare_text(names)};
 }
 
 /// What there is to tell at the end.
 struct Traced {
   std::string camera;
   std::uint64_t samples;  ///< a pixel
+  double error, dark;     ///< of pixels, as Rendering has them: relative, and the share of those without light
+  double target;          ///< of that; 0: none
+  bool independent;       ///< samples: errors fall as their number's root grows
   std::filesystem::path exr, png;
   bool stopped;                           ///< before all was done
   std::filesystem::path checkpoint = {};  ///< to go on from; empty where this run leaves none
   std::filesystem::path estimates = {};   ///< their folder; empty where none were written
   SamplesTold of_picture = {}, of_estimates = {};
+
+  bool missed_target() const { return target > 0 && !(error <= target); }
 };
 
 /// Writes them, if they were asked for and a stop leaves time for any.
@@ -128,9 +135,26 @@ void print_text(const SamplesTold& told) {
                 static_cast<unsigned long long>(told.not_finite));
 }
 
+std::string error_text(double relative) {
+  return std::isfinite(relative) ? core::format("%.2g %%", core::rounded_up(100 * relative, 2)) : "not known";
+}
+
+/// Of a target that all samples asked for did not reach.
+void tell_of_missed_target(const Traced& t) {
+  std::string text = core::format("--target %s was not met: pixels' standard errors are %s after %llu samples a pixel",
+                                  core::format_percent(t.target).c_str(), error_text(t.error).c_str(),
+                                  static_cast<unsigned long long>(t.samples));
+  if (t.independent && std::isfinite(t.error))
+    text += core::format(", --spp %.0f or so would do",
+                         core::rounded_up(static_cast<double>(t.samples) * std::pow(t.error / t.target, 2), 2));
+  core::log::shortfall(text);
+}
+
 void print_text(const Traced& t) {
   std::printf("%s, %llu samples a pixel: %s and %s\n", t.camera.c_str(), static_cast<unsigned long long>(t.samples),
               t.exr.c_str(), t.png.c_str());
+  std::printf("pixels' standard errors are %s (root mean square)%s\n", error_text(t.error).c_str(),
+              t.dark > 0 ? (", but of " + core::format_percent(t.dark) + " that found no light").c_str() : "");
   print_text(t.of_picture);
   if (!t.estimates.empty())
     std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(),
@@ -148,7 +172,8 @@ void add(const SamplesTold& told, const std::string& of, results::Record& record
 
 results::Record record_of(const Traced& t) {
   results::Record record;
-  record.add("camera", t.camera).add("samples", t.samples).add("exr", t.exr.string()).add("png", t.png.string());
+  record.add("camera", t.camera).add("samples", t.samples).add("relative_error", t.error).add("dark", t.dark);
+  record.add("target_met", !t.missed_target()).add("exr", t.exr.string()).add("png", t.png.string());
   add(t.of_picture, "pixels_", record);
   if (!t.estimates.empty()) {
     record.add("estimates", t.estimates.string());
@@ -161,7 +186,7 @@ results::Record record_of(const Traced& t) {
 }  // namespace
 
 ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& run) {
-  results::require_image_extension(options.image);
+  results::require_both_images(options.image);
   scene::Scene scene = read_and_note(options.scene);
   if (!options.group.empty()) scene = measure::lit_by(std::move(scene), options.group);
   const scene::CameraId camera = camera_named(scene, options.camera);
@@ -173,18 +198,28 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
   const FirstPass first(scene, {options.integrator}, measure::PathClasses::of(options.paths), options.intersector, run);
   first.require_solved();
   const montecarlo::Rendering rendering = rendered(scene, camera, options, first, checkpoint, run);
-  Traced traced{scene.camera(camera).name, rendering.samples, options.image, options.image, !rendering.complete};
+  Traced traced{.camera = scene.camera(camera).name,
+                .samples = rendering.samples,
+                .error = rendering.relative_error,
+                .dark = rendering.dark,
+                .target = options.target,
+                .independent = options.sequence == "independent",
+                .exr = options.image,
+                .png = options.image,
+                .stopped = !rendering.complete};
   results::write_image(traced.exr.replace_extension(".exr"), with_errors_and_samples(rendering));
   results::write_image(traced.png.replace_extension(".png"), results::as_rgb(scene, rendering.radiance));
   traced.of_picture = told_of(rendering);
   add_estimates(scene, options, first, run, traced);
-  if (!traced.stopped && !options.keep_checkpoint) checkpoint.remove();  // after what it was for is written
+  const bool grows_on = traced.stopped || traced.missed_target() || options.keep_checkpoint;
+  if (!grows_on) checkpoint.remove();  // after what it was for is written
   if (checkpoint.is_own()) traced.checkpoint = checkpoint.file();
   if (common.json)
     std::printf("%s\n", results::json_text(record_of(traced)).c_str());
   else if (!common.quiet)
     print_text(traced);
-  return traced.stopped ? not_met : success;
+  if (!traced.stopped && traced.missed_target()) tell_of_missed_target(traced);
+  return traced.stopped || traced.missed_target() ? not_met : success;
 }
 
 }  // namespace interflect::apps

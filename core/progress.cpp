@@ -20,8 +20,8 @@ constexpr int bar_width = 30;
 
 Progress::Style Progress::style_of_standard_error() { return isatty(STDERR_FILENO) != 0 ? Style::bar : Style::lines; }
 
-Progress::Stage::Stage(Progress& progress, std::string name, std::uint64_t total)
-    : progress_(progress), name_(std::move(name)), total_(std::max<std::uint64_t>(total, 1)) {
+Progress::Stage::Stage(Progress& progress, const std::string& name, std::uint64_t total)
+    : progress_(progress), name_(progress.part_ + name), total_(std::max<std::uint64_t>(total, 1)) {
   next_report_ = (start_ + first_report_after).time_since_epoch().count();
 }
 

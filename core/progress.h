@@ -17,6 +17,9 @@ class Progress {
   static Style style_of_standard_error();
 
   explicit Progress(Style style = Style::quiet) : style_(style) {}
+  /// Of a part of the work that `whole` tells of: its name, "path: pixels", stands before those of its stages.
+  Progress(const Progress& whole, const std::string& part)
+      : style_(whole.style_), expected_end_(whole.expected_end_), part_(part + ", ") {}
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
@@ -29,7 +32,7 @@ class Progress {
   /// One stage of work; ends with its scope.  `advance` may be called by any thread.
   class Stage {
    public:
-    Stage(Progress& progress, std::string name, std::uint64_t total);
+    Stage(Progress& progress, const std::string& name, std::uint64_t total);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
@@ -53,6 +56,7 @@ class Progress {
   Style style_;
   std::chrono::steady_clock::time_point expected_end_{};  ///< set before stages begin
   std::mutex printing_;
+  std::string part_;  ///< before the names of stages
 };
 
 }  // namespace interflect::core

@@ -2,25 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
+#include <numeric>
 
 #include "core/error.h"
+#include "core/processor_time.h"
 #include "core/random.h"
 #include "montecarlo/scene_paths.h"
+#include "montecarlo/surface_optics.h"
 #include "montecarlo/tally.h"
 
 namespace interflect::montecarlo {
 namespace {
 
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+/// What an integrator found of some paths, and found again.
+struct Answers {
+  measure::PathClasses paths;
+  std::vector<Estimate> found;
+  SampleReport report;
+  std::vector<std::vector<Estimate>> again = {};
+};
 
 class Comparing {
  public:
   Comparing(const scene::Scene& scene, std::span<const measure::Measurement> asked, const IntegratorSettings& settings,
-            Run& run)
-      : scene_(scene), asked_(asked), settings_(settings), run_(run), there_(that_reach(asked[0], paths_in(scene))) {}
+            const ComparisonSettings& comparison, Run& run)
+      : scene_(scene),
+        asked_(asked),
+        settings_(settings),
+        comparison_(comparison),
+        run_(run),
+        there_(that_reach(asked[0], paths_in(scene))) {
+    const SurfaceOptics of_nobody(scene);  // tables of its rough surfaces are made once, and on nobody's time
+  }
 
-  IntegratorTrial trial(const std::string& name) const {
+  IntegratorComparison compared(const std::vector<std::string>& names) {
+    answers_.resize(names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) made_.trials.push_back(trial(k, names[k]));
+    if (std::ranges::all_of(made_.trials, [](const IntegratorTrial& trial) { return trial.found.empty(); }))
+      run_.throw_if_stopped("comparing");
+    for (std::size_t a = 0; a < names.size(); ++a)
+      for (std::size_t b = a + 1; b < names.size(); ++b) compare(a, b);
+    return std::move(made_);
+  }
+
+ private:
+  IntegratorTrial trial(std::size_t k, const std::string& name) {
     IntegratorTrial trial{name, "", "", settings_.paths, {}, 0};
     const auto finds = make_integrator(name, settings_)->capabilities().paths_to(asked_[0]);
     if (const auto missed = (there_ & settings_.paths) - finds; !missed.empty()) {
@@ -31,42 +57,92 @@ class Comparing {
         return trial;
       }
     }
-    const double begin = processor_seconds();
     try {
-      trial.found = answers(name, trial.paths, trial.report);
+      const core::ProcessorTime timed(trial.processor_seconds);
+      answers_[k].push_back(answers(name, trial.paths, name + ": " + comparison_.what));
+      trial.found = answers_[k].front().found;
+      trial.report = answers_[k].front().report;
     } catch (const core::InputError& error) {
       trial.refused = error.what();
     } catch (const core::Interrupted&) {
       trial.refused = "stopped before it had an answer";
     }
-    trial.processor_seconds = processor_seconds() - begin;
+    made_.times.measuring += trial.processor_seconds;
     if (integrator_entry(name).needs_solution) trial.processor_seconds += settings_.solution.processor_seconds;
     return trial;
   }
 
-  /// What a trial found of these paths: what it has, if in this scene they are all that it was asked for.
-  std::vector<Estimate> of(const IntegratorTrial& trial, const measure::PathClasses& paths,
-                           SampleReport& report) const {
-    if (are_all(trial, paths)) return trial.found;
-    return answers(trial.integrator, paths, report);
+  /// Holds two against each other.  What a stop leaves no answers for is not.
+  void compare(std::size_t a, std::size_t b) {
+    const IntegratorTrial &of_a = made_.trials[a], &of_b = made_.trials[b];
+    if (!of_a.refused.empty() || !of_b.refused.empty()) return;
+    const measure::PathClasses common = of_a.paths & of_b.paths;
+    if (empty(common)) return;
+    try {
+      IntegratorPair pair{a, b, common, {}, {}};
+      pair.of_a = of(a, common, pair.report).found;
+      pair.of_b = of(b, common, pair.report).found;
+      made_.pairs.push_back(std::move(pair));
+      replicate(made_.pairs.back());
+    } catch (const core::Interrupted&) {
+    }
   }
 
-  /// Small runs of other seeds, with as many samples as `found` has; none if the run is stopped before all are done.
-  std::vector<std::vector<Estimate>> again(const IntegratorTrial& trial, const measure::PathClasses& paths,
-                                           std::span<const Estimate> found, int replications) const {
-    if (integrator_entry(trial.integrator).by_quadrature)
-      return std::vector(static_cast<std::size_t>(replications), std::vector(found.begin(), found.end()));
+  /// What one finds of these paths: what it has, if in this scene they are those that it was asked for, by itself or
+  /// for another pair.
+  /// @param report  is added to, of what it was asked for pairs
+  const Answers& of(std::size_t k, const measure::PathClasses& paths, SampleReport& report) {
+    const std::size_t n = at(k, paths);
+    if (n == answers_[k].size()) {
+      const core::ProcessorTime timed(made_.times.on_common_paths);
+      const std::string& name = made_.trials[k].integrator;
+      answers_[k].push_back(answers(name, paths, name + ": " + comparison_.what + " on common paths"));
+    }
+    const Answers& found = answers_[k][n];
+    std::vector<std::size_t> all(asked_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (n > 0) report.add(found.report, all);
+    return found;
+  }
+
+  void replicate(IntegratorPair& pair) {
+    if (comparison_.replications == 0) return;
+    if (!errs_by_chance(made_.trials[pair.a].integrator) || !errs_by_chance(made_.trials[pair.b].integrator)) return;
+    const core::ProcessorTime timed(made_.times.replications);
+    try {
+      pair.again_a = again(pair.a, answers_[pair.a][at(pair.a, pair.common)]);
+      pair.again_b = again(pair.b, answers_[pair.b][at(pair.b, pair.common)]);
+    } catch (const core::Interrupted&) {
+    }
+    if (pair.again_a.size() != pair.again_b.size()) pair.again_a.clear(), pair.again_b.clear();
+  }
+
+  /// Small runs of other seeds, of as many samples as were found by; none if the run is stopped before all are done.
+  const std::vector<std::vector<Estimate>>& again(std::size_t k, Answers& of) {
+    const std::string& name = made_.trials[k].integrator;
+    if (of.again.empty()) of.again = integrator_entry(name).by_quadrature ? the_same(of) : replications(name, of);
+    return of.again;
+  }
+  std::vector<std::vector<Estimate>> the_same(const Answers& of) const {
+    return std::vector(static_cast<std::size_t>(comparison_.replications), of.found);
+  }
+  std::vector<std::vector<Estimate>> replications(const std::string& name, const Answers& of) const {
+    const int count = comparison_.replications;
     double samples = 0;
-    for (const Estimate& each : found) samples += static_cast<double>(each.samples) / static_cast<double>(found.size());
+    for (const Estimate& each : of.found)
+      samples += static_cast<double>(each.samples) / static_cast<double>(of.found.size());
     IntegratorSettings settings = settings_;
-    settings.paths = paths;
-    settings.samples = std::max<std::uint64_t>(2, static_cast<std::uint64_t>(samples / replications));
-    const auto integrator = make_integrator(trial.integrator, settings);
+    settings.paths = of.paths;
+    settings.samples = std::max<std::uint64_t>(2, static_cast<std::uint64_t>(samples / count));
+    const auto integrator = make_integrator(name, settings);
+    core::Progress quiet;  // each is short, and all together are one stage
+    core::Progress::Stage stage(run_.progress, name + ": replications of " + comparison_.what,
+                                static_cast<std::uint64_t>(count));
     std::vector<std::vector<Estimate>> again;
-    for (int k = 0; k < replications && !run_.stop.stop_requested(); ++k) {
-      const std::uint64_t seed = core::derived_seed(run_.seed, "replication " + std::to_string(k));
-      Run other{seed, run_.threads, run_.progress, run_.stop};
+    for (int k = 0; k < count && !run_.stop.stop_requested(); ++k) {
+      Run other{core::derived_seed(run_.seed, "replication " + std::to_string(k)), run_.threads, quiet, run_.stop};
       again.push_back(integrator->answer(scene_, asked_, other));
+      stage.advance();
     }
     if (run_.stop.stop_requested()) again.clear();
     return again;
@@ -75,41 +151,36 @@ class Comparing {
   static bool errs_by_chance(const std::string& name) {
     return integrator_entry(name).by_quadrature || make_integrator(name, {})->capabilities().unbiased;
   }
-  void replicate(std::vector<IntegratorTrial>& trials, IntegratorPair& pair, int replications) const {
-    if (!errs_by_chance(trials[pair.a].integrator) || !errs_by_chance(trials[pair.b].integrator)) return;
-    const auto of = [&](IntegratorTrial& trial, std::span<const Estimate> found) {
-      if (!are_all(trial, pair.common)) return again(trial, pair.common, found, replications);
-      if (trial.again.empty()) trial.again = again(trial, pair.common, found, replications);
-      return trial.again;
-    };
-    try {
-      pair.again_a = of(trials[pair.a], pair.of_a);
-      pair.again_b = of(trials[pair.b], pair.of_b);
-    } catch (const core::Interrupted&) {
-    }
-    if (pair.again_a.size() != pair.again_b.size()) pair.again_a.clear(), pair.again_b.clear();
-  }
 
   bool empty(const measure::PathClasses& paths) const { return (there_ & paths).empty(); }
-
- private:
-  /// Whether these are all that a trial was asked for, in this scene.
-  bool are_all(const IntegratorTrial& trial, const measure::PathClasses& paths) const {
-    return ((there_ & trial.paths) - paths).empty();
+  bool are_same(const measure::PathClasses& a, const measure::PathClasses& b) const {
+    return ((there_ & a) - b).empty() && ((there_ & b) - a).empty();
   }
-  std::vector<Estimate> answers(const std::string& name, const measure::PathClasses& paths,
-                                SampleReport& report) const {
+  /// Which of its answers are of these paths, the end of them where none are.
+  std::size_t at(std::size_t k, const measure::PathClasses& paths) const {
+    const auto found =
+        std::ranges::find_if(answers_[k], [&](const Answers& each) { return are_same(each.paths, paths); });
+    return static_cast<std::size_t>(found - answers_[k].begin());
+  }
+  Answers answers(const std::string& name, const measure::PathClasses& paths, const std::string& step) const {
+    Answers of{paths, {}, {}};
     IntegratorSettings settings = settings_;
     settings.paths = paths;
-    settings.report = &report;
-    return make_integrator(name, settings)->answer(scene_, asked_, run_);
+    settings.report = &of.report;
+    core::Progress progress(run_.progress, step);
+    Run labelled{run_.seed, run_.threads, progress, run_.stop};
+    of.found = make_integrator(name, settings)->answer(scene_, asked_, labelled);
+    return of;
   }
 
   const scene::Scene& scene_;
   std::span<const measure::Measurement> asked_;
   const IntegratorSettings& settings_;
+  const ComparisonSettings& comparison_;
   Run& run_;
   measure::PathClasses there_;
+  std::vector<std::vector<Answers>> answers_;  ///< of each trial: its own first, then on the paths of pairs
+  IntegratorComparison made_;
 };
 
 }  // namespace
@@ -137,30 +208,9 @@ double IntegratorTrial::efficiency(const scene::Scene& scene) const {
 
 IntegratorComparison compare_integrators(const scene::Scene& scene, std::span<const measure::Measurement> asked,
                                          const std::vector<std::string>& names, const IntegratorSettings& settings,
-                                         Run& run, int replications) {
-  IntegratorComparison comparison;
-  if (asked.empty()) return comparison;
-  const Comparing comparing(scene, asked, settings, run);
-  for (const std::string& name : names) comparison.trials.push_back(comparing.trial(name));
-  std::vector<IntegratorTrial>& trials = comparison.trials;
-  if (std::ranges::all_of(trials, [](const IntegratorTrial& trial) { return trial.found.empty(); }))
-    run.throw_if_stopped("comparing");
-  for (std::size_t a = 0; a < trials.size(); ++a)
-    for (std::size_t b = a + 1; b < trials.size(); ++b) {
-      if (!trials[a].refused.empty() || !trials[b].refused.empty()) continue;
-      const measure::PathClasses common = trials[a].paths & trials[b].paths;
-      if (comparing.empty(common)) continue;
-      try {
-        IntegratorPair pair{a, b, common, {}, {}};
-        pair.of_a = comparing.of(trials[a], common, pair.report);
-        pair.of_b = comparing.of(trials[b], common, pair.report);
-        comparison.pairs.push_back(std::move(pair));
-        if (replications > 0) comparing.replicate(trials, comparison.pairs.back(), replications);
-      } catch (const core::Interrupted&) {
-        // What a stop leaves no answers for is not held against each other.
-      }
-    }
-  return comparison;
+                                         Run& run, const ComparisonSettings& comparison) {
+  if (asked.empty()) return {};
+  return Comparing(scene, asked, settings, comparison, run).compared(names);
 }
 
 }  // namespace interflect::montecarlo

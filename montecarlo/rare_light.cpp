@@ -135,7 +135,7 @@ double RareLights::samples_for(double wanted, const From& from) const {
   return samples;
 }
 
-void RareLights::add_to(Estimate& estimate, double scale, const From& from, SampleReport& report) const {
+void RareLights::add_to(Estimate& estimate, double scale, const From& from, std::size_t m, SampleReport& report) const {
   const Spectrum lacked = scale * lacks(estimate.samples, from);
   if (lacked.is_zero()) return;
   for (int c = 0; c < Spectrum::capacity; ++c)
@@ -145,6 +145,7 @@ void RareLights::add_to(Estimate& estimate, double scale, const From& from, Samp
   if (known > weighed || (!report.rare.empty() && report.rare_samples <= estimate.samples)) return;
   report.rare = text(estimate.samples, from, ": errors allow for some that none has met");
   report.rare_samples = estimate.samples;
+  report.rare_measurement = m;
 }
 
 std::string RareLights::of_picture(std::uint64_t samples) const {

@@ -42,9 +42,9 @@ class RareLights {
   Spectrum lacks(std::uint64_t samples, const From& from) const;
   /// Samples for which that is as little, weighed, as far as samples help.
   double samples_for(double wanted, const From& from) const;
-  /// Of a measurement of that scale: as much into its standard errors; told where it is most of them, of the measurement
-  /// that has the fewest samples.
-  void add_to(Estimate& estimate, double scale, const From& from, SampleReport& report) const;
+  /// Of measurement `m`, of that scale: as much into its standard errors; told where it is most of them, of the
+  /// measurement that has the fewest samples.
+  void add_to(Estimate& estimate, double scale, const From& from, std::size_t m, SampleReport& report) const;
   /// Of a picture with so many samples a pixel, whose errors are of these alone: what is lacked, in words; empty where
   /// nothing is.
   std::string of_picture(std::uint64_t samples) const;

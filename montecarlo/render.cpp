@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -58,6 +59,8 @@ Film empty_film(const scene::Scene& scene, std::size_t pixels, const RenderSetti
   return {pixels, scene.channel_count(), batches_of(settings), integrator.by_quadrature || integrator.inherits_error};
 }
 
+bool is_dark(const Estimate& pixel) { return pixel.value.is_zero() && pixel.claim != Claim::none; }
+
 /// Noise, and as much more as makes of 95 % of it what covers a bound too.
 template <class T>
 T error_of(const T& standard_error, const T& bound) {
@@ -97,11 +100,13 @@ class Painter {
     for (std::uint64_t done = film_.fewest_samples(); done < settings_.samples && !good_enough && !stopped();) {
       const std::uint64_t look = next_look(done);
       done = exposure_->pass(film_, done, look, stage, after_some);
-      good_enough = settings_.target > 0 && done == look && mean_relative_error() <= settings_.target;
+      good_enough = settings_.target > 0 && done == look && relative_error() <= settings_.target;
     }
-    if (checkpoints_.keep && (stopped() || checkpoints_.at_end)) keep();
+    const bool short_of_target = settings_.target > 0 && !good_enough;
+    if (checkpoints_.keep && (stopped() || short_of_target || checkpoints_.at_end)) keep();
     if (film_.fewest_samples() == 0) throw core::Interrupted("rendering " + camera_.name);
     Rendering picture = developed();
+    picture.relative_error = relative_error();
     // Not by the stop flag, which may be raised after the last sample.
     picture.complete = good_enough || picture.samples >= settings_.samples;
     return picture;
@@ -119,23 +124,35 @@ class Painter {
     return std::min(look, settings_.samples);
   }
 
-  /// Of the weighed radiance: standard errors over the radiance, or over a tenth of the picture's mean where that is
-  /// more; the root of the mean of squares over all pixels.
-  double mean_relative_error() const {
+  /// Of pixels that have found light; those that have not, as where the background is black, tell no noise: the rule of
+  /// three, which falls as 1 / n, would be all of the error, and no number of samples enough.
+  double relative_error() const {
     const Spectrum largest = inv_pi * exposure_->largest_score();
     std::vector<double> values, errors;
+    double of_dark = 0, sum = 0;
     for (std::size_t p = 0; p < film_.pixels(); ++p) {
+      if (!in_sight(p)) continue;
       const Estimate pixel = film_.estimate(p, largest);
-      values.push_back(scene_.weigh(pixel.value));
-      errors.push_back(error_of(weighed_standard_error(scene_, pixel), scene_.weigh(pixel.error_bound)));
+      const double error = error_of(weighed_standard_error(scene_, pixel), scene_.weigh(pixel.error_bound));
+      if (is_dark(pixel)) {
+        of_dark = std::max(of_dark, error);
+      } else {
+        values.push_back(scene_.weigh(pixel.value));
+        errors.push_back(error);
+      }
     }
+    if (values.empty()) return of_dark > 0 ? std::numeric_limits<double>::infinity() : 0;
     const double floor = 0.1 * std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    double sum = 0;
-    for (std::size_t p = 0; p < values.size(); ++p) {
-      const double relative = errors[p] / std::max(values[p], floor);
-      if (!std::isnan(relative)) sum += relative * relative;  // not of what is dark, and all of the picture with it
-    }
+    for (std::size_t p = 0; p < values.size(); ++p) sum += std::pow(errors[p] / std::max(values[p], floor), 2);
     return std::sqrt(sum / static_cast<double>(values.size()));
+  }
+
+  /// Whether any ray of it sees: else it is exactly 0.
+  bool in_sight(std::size_t pixel) const {
+    const auto width = static_cast<std::size_t>(camera_.width);
+    const Vec2 middle(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
+    const Vec2 reach = Vec2::Constant(filter_->reach());
+    return map_.in_sight(middle - reach, middle + reach);
   }
 
   void keep() {
@@ -152,10 +169,10 @@ class Painter {
       for (int x = 0; x < w; ++x) {
         const std::size_t p = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
         picture.samples_a_pixel.at(x, y, 0) = static_cast<float>(film_.samples(p));
-        const Vec2 middle(x + 0.5, y + 0.5), reach = Vec2::Constant(filter_->reach());
-        if (!map_.in_sight(middle - reach, middle + reach)) continue;  // exactly 0
+        if (!in_sight(p)) continue;
         const Estimate pixel = film_.estimate(p, largest);
         picture.report.add(p, film_.tally(p));
+        if (is_dark(pixel)) picture.dark += 1 / static_cast<double>(film_.pixels());
         const Spectrum error = error_of(pixel.standard_error, pixel.error_bound);
         for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
           picture.radiance.at(x, y, c) = static_cast<float>(pixel.value[c]);

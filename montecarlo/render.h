@@ -23,7 +23,11 @@ struct Rendering {
   core::Image samples_a_pixel;  ///< one channel, "samples"
   std::uint64_t samples = 0;    ///< that every pixel has; more in some, if the run was stopped within a pass
   SampleReport report = {};     ///< of measurement y * width + x each
-  bool complete = false;        ///< it has all that was asked for: no stop came in between
+  /// Standard errors (with what they hold of bounds) over the radiance, both weighed, or over a tenth of the picture's
+  /// mean where that is more: root mean square over the pixels whose samples found light.  Infinite where any error is.
+  double relative_error = 0;
+  double dark = 0;        ///< share of pixels whose samples found none: their errors are limits of what may be there
+  bool complete = false;  ///< no stop came before it had all samples, or met its target
 };
 
 struct RenderSettings {
@@ -32,7 +36,7 @@ struct RenderSettings {
   std::string sequence = "independent";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
   std::string integrator = "path";                           ///< see known_integrators
-  /// Above 0: it ends earlier where the relative standard errors of its pixels are below that in the root mean square.
+  /// Above 0: it ends earlier where Rendering::relative_error is no more than that.
   double target = 0;
   measure::SurfaceSolution solution = {};  ///< of integrators that need one
 
@@ -47,7 +51,8 @@ inline constexpr int sequence_batches = 16;
 struct RenderCheckpoints {
   const FilmState* from = nullptr;  ///< the state to go on from; null: from the beginning
   double seconds_between = 60;
-  /// Called with the state after so long, and at a stop; empty: nothing is kept.
+  /// Called with the state after so long, at a stop, and where all samples did not meet the target; empty: nothing is
+  /// kept.
   std::function<void(const FilmState& state)> keep = {};
   bool at_end = false;  ///< it is kept of a picture too that has all that was asked for, so that it may grow further
 };

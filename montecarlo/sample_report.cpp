@@ -17,6 +17,7 @@ void SampleReport::add(const SampleReport& part, std::span<const std::size_t> of
   if (!part.rare.empty() && (rare.empty() || part.rare_samples < rare_samples)) {
     rare = part.rare;
     rare_samples = part.rare_samples;
+    rare_measurement = of[part.rare_measurement];
   }
   for (const Heavy& each : part.heavy) heavy.push_back({of[each.measurement], each.share});
 }
@@ -29,6 +30,10 @@ std::string SampleReport::heavy_text(const std::vector<std::string>& names) cons
                                   names[worst().measurement].c_str());
   if (heavy.size() > 1) text += core::format("; so in %zu of %zu", heavy.size(), names.size());
   return text;
+}
+
+std::string SampleReport::rare_text(const std::vector<std::string>& names) const {
+  return rare.empty() ? rare : names[rare_measurement] + ": " + rare;
 }
 
 std::string SampleReport::heavy_text_of_picture(int width, int height) const {

@@ -20,7 +20,8 @@ struct SampleReport {
   std::uint64_t not_finite = 0;
   std::vector<Heavy> heavy;
   std::string rare;  ///< of light that samples may not have met (RareLights::text); empty where there is none
-  std::uint64_t rare_samples = 0;  ///< of the measurement that this is of
+  std::uint64_t rare_samples = 0;  ///< of the measurement that this is of, that which has the fewest
+  std::size_t rare_measurement = 0;
 
   void add(std::size_t measurement, const Tally& tally);
   /// Of measurements of[0], of[1], .. of a longer list.
@@ -28,6 +29,8 @@ struct SampleReport {
   /// "one sample carries 7 % of floor: its error may be understated; so in 3 of 20"; empty where none does.
   /// @param names  of all measurements
   std::string heavy_text(const std::vector<std::string>& names) const;
+  /// "floor: light of sun by way of mirrors ..": which measurement it is of, too; empty where nothing is rare.
+  std::string rare_text(const std::vector<std::string>& names) const;
   /// Of a picture, whose measurements are its pixels: the share of those; empty where that is below `heavy_pixels`.
   std::string heavy_text_of_picture(int width, int height) const;
 

@@ -170,7 +170,7 @@ std::vector<Estimate> sampled_answers(const SampledMeasurements& measurements, c
     warn_of_bugs(tallies[m], measurements.name().c_str(), m, seed);
     report.add(m, tallies[m]);
     estimates.push_back(tallies[m].estimate(measurements.scale(m) * measurements.largest_score()));
-    if (!rare.empty()) rare.add_to(estimates.back(), measurements.scale(m), measurements.looks_from(m), report);
+    if (!rare.empty()) rare.add_to(estimates.back(), measurements.scale(m), measurements.looks_from(m), m, report);
   }
   if (settings.samples == 0) warn_of_cap(measurements, target, estimates);
   return estimates;

@@ -1,5 +1,6 @@
 #include "results/comparison_panels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace interflect::results {
 
 namespace {
 
-constexpr int block = 6;  // pixels of a side
+constexpr int block = 6;               // pixels of a side
+constexpr double standard_errors = 3;  // up to which a block stays white
 
 /// A picture's means over blocks: its weighted value, or, of a picture of independent standard errors, that of the
 /// mean.
@@ -59,17 +61,29 @@ Blocks block_noise(const scene::Scene& scene, const core::Image& noise) {
 /// 0 where noise may be all, as where both are dark.
 double relative_difference(double fem, double traced, double noise) {
   const double mean = 0.5 * (fem + traced);
-  return std::abs(fem - traced) > 3 * noise && mean > 0 ? (fem - traced) / mean : 0;
+  return std::abs(fem - traced) > standard_errors * noise && mean > 0 ? (fem - traced) / mean : 0;
 }
 
-core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
-                             const Blocks& error, double full_scale) {
+/// Relative differences of blocks.
+Blocks differences(const scene::Scene& scene, const core::Image& fem, const core::Image& traced, const Blocks& error) {
   const Blocks a = block_means(scene, fem), b = block_means(scene, traced);
+  Blocks differences(fem.width, fem.height);
+  for (std::size_t k = 0; k < differences.mean.size(); ++k)
+    differences.mean[k] = relative_difference(a.mean[k], b.mean[k], error.mean[k]);
+  return differences;
+}
+
+BlocksApart apart(const Blocks& differences) {
+  BlocksApart apart{differences.mean.size()};
+  for (const double difference : differences.mean) apart.brighter += difference > 0, apart.darker += difference < 0;
+  return apart;
+}
+
+core::Image difference_panel(const core::Image& fem, const Blocks& differences, double full_scale) {
   core::Image picture(fem.width, fem.height, {"R", "G", "B"});
   for (int y = 0; y < fem.height; ++y)
     for (int x = 0; x < fem.width; ++x) {
-      const double difference = relative_difference(a.at(x, y), b.at(x, y), error.at(x, y));
-      const Colour colour = colour_of(ColourMap::blue_white_red, 0.5 + 0.5 * difference / full_scale);
+      const Colour colour = colour_of(ColourMap::blue_white_red, 0.5 + 0.5 * differences.at(x, y) / full_scale);
       for (int c = 0; c < 3; ++c)
         picture.at(x, y, c) = static_cast<float>(colour[static_cast<std::size_t>(c)]) / 255.0F;
     }
@@ -77,6 +91,21 @@ core::Image difference_panel(const scene::Scene& scene, const core::Image& fem, 
 }
 
 }  // namespace
+
+/// The least number that a binomial one, of a normal error beyond three standard errors each, is above with a
+/// probability of no more than 1 %.
+std::size_t BlocksApart::by_chance() const {
+  constexpr double level = 0.01;
+  const double p = std::erfc(standard_errors / std::sqrt(2.0)), n = static_cast<double>(blocks);
+  double below = 0;
+  for (std::size_t count = 0; count < blocks; ++count) {
+    const auto k = static_cast<double>(count);
+    below += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) + k * std::log(p) +
+                      (n - k) * std::log1p(-p));
+    if (below >= 1 - level) return count;
+  }
+  return blocks;
+}
 
 ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
                                    const core::Image& noise, double full_scale, const core::Image* shared_error) {
@@ -92,8 +121,11 @@ ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image&
     for (std::size_t k = 0; k < error.mean.size(); ++k) error.mean[k] = std::hypot(error.mean[k], shared.mean[k]);
   }
   const core::Image left = as_rgb(scene, fem), right = as_rgb(scene, traced);
-  const ToneMapping tone{.white = white_of(right)};
-  return {tone_mapped(left, tone), tone_mapped(right, tone), difference_panel(scene, fem, traced, error, full_scale)};
+  // Of the one that is brighter in places, those may be single samples of rare light, beside which all else is black.
+  const ToneMapping tone{.white = std::min(white_of(left), white_of(right))};
+  const Blocks apart_by = differences(scene, fem, traced, error);
+  return {tone_mapped(left, tone), tone_mapped(right, tone), difference_panel(fem, apart_by, full_scale),
+          apart(apart_by)};
 }
 
 }  // namespace interflect::results

@@ -1,15 +1,31 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/image.h"
 #include "scene/scene.h"
 
 namespace interflect::results {
 
+/// How many blocks of a difference are beyond three standard errors, and whether stated errors explain that.
+///
+/// Of a normal error one block in 370 is: more than `by_chance` of them with a probability of 1 %, where each block
+/// errs by itself.  More say that the stated errors do not know all: methods differ, or light that is met rarely has
+/// not been met by the samples that errors are made of.
+struct BlocksApart {
+  std::size_t blocks = 0, brighter = 0, darker = 0;  ///< brighter: the first picture is
+
+  std::size_t beyond() const { return brighter + darker; }
+  std::size_t by_chance() const;
+  bool is_explained() const { return beyond() <= by_chance(); }
+};
+
 /// One view as two methods see it, for display: [0, 1] sRGB, channels R, G, B.
 struct ComparisonPanels {
-  core::Image fem, traced;  ///< at one exposure, that of the traced picture
+  core::Image fem, traced;  ///< at one exposure, the longer of the two
   /// (FEM - traced) / mean of both: blue where FEM is darker, red where it is brighter, white where noise may be all
   core::Image difference;
+  BlocksApart apart = {};  ///< those of the difference that are not white
 };
 
 /// @param fem, traced  radiance in the scene's channels, of one size

@@ -17,6 +17,16 @@ void require_image_extension(const std::filesystem::path& file) {
     throw core::InputError(file.string(), "an image's name ends in .exr (radiance) or .png (for looking)");
 }
 
+void require_both_images(const std::filesystem::path& file) {
+  require_image_extension(file);
+  for (const char* extension : {".exr", ".png"}) {
+    auto one = file;
+    one.replace_extension(extension);
+    std::error_code error;
+    if (std::filesystem::is_directory(one, error)) throw core::InputError(one.string(), "is a directory");
+  }
+}
+
 void write_image(const std::filesystem::path& file, const core::Image& image, const ToneMapping& tone) {
   require_image_extension(file);
   if (extension_of(file) == ".exr")

@@ -36,5 +36,7 @@ void write_png(const std::filesystem::path& file, const core::Image& display);
 
 /// Refuses a name that write_image would refuse, before the work is done.
 void require_image_extension(const std::filesystem::path& file);
+/// And one of whose two files, .exr and .png, cannot be: where a directory has the name.
+void require_both_images(const std::filesystem::path& file);
 
 }  // namespace interflect::results

@@ -1,5 +1,9 @@
 #include "results/tables.h"
 
+#include <array>
+#include <limits>
+#include <utility>
+
 #include "core/error.h"
 #include "results/atomic_file.h"
 #include "results/csv.h"
@@ -8,25 +12,32 @@ namespace interflect::results {
 
 Spectrum error_95(const Estimate& estimate) { return estimate.error_bound + estimate.standard_error * normal_95; }
 
+Spectrum reflected_error(const Spectrum& reflectance, const Spectrum& irradiance_error) {
+  Spectrum error;
+  for (int c = 0; c < Spectrum::capacity; ++c)
+    error[c] = reflectance[c] == 0 ? 0 : reflectance[c] * irradiance_error[c];
+  return error;
+}
+
 std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::ElementMesh& mesh,
-                                      std::span<const Spectrum> radiosity, std::span<const Spectrum> irradiance,
-                                      std::span<const Spectrum> error) {
+                                      const ElementValues& of) {
   const auto size = static_cast<std::size_t>(mesh.size());
-  if (radiosity.size() != size || irradiance.size() != size || error.size() != size)
+  if (of.radiosity.size() != size || of.irradiance.size() != size || of.radiosity_error.size() != size ||
+      of.irradiance_error.size() != size)
     throw core::PreconditionError("surface_means: one value per element expected");
   std::vector<SurfaceRow> rows;
   for (const mesh::ElementMesh::Part& part : mesh.parts()) {
-    SurfaceRow row{scene.side_name(part.surface, part.side), 0, {}, {}, {}};
+    SurfaceRow row{scene.side_name(part.surface, part.side), 0, {}, {}, {}, {}};
     for (std::size_t i = part.first; i < std::size_t{part.first} + part.count; ++i) {
       const double area = mesh.patches()[i].area;
       row.area += area;
-      row.radiosity += radiosity[i] * area;
-      row.irradiance += irradiance[i] * area;
-      row.error += error[i] * area;
+      row.radiosity += of.radiosity[i] * area;
+      row.irradiance += of.irradiance[i] * area;
+      row.radiosity_error += of.radiosity_error[i] * area;
+      row.irradiance_error += of.irradiance_error[i] * area;
     }
-    row.radiosity /= row.area;
-    row.irradiance /= row.area;
-    row.error /= row.area;
+    for (Spectrum* sum : {&row.radiosity, &row.irradiance, &row.radiosity_error, &row.irradiance_error})
+      *sum /= row.area;
     rows.push_back(row);
   }
   return rows;
@@ -35,27 +46,34 @@ std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::Ele
 SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side,
                        const Estimate& irradiance) {
   const scene::Material& material = scene.material(surface);
-  const Spectrum rho = material.reflectance_of(side);
-  Spectrum error = error_95(irradiance);
-  for (int c = 0; c < Spectrum::capacity; ++c) error[c] = rho[c] == 0 ? 0 : rho[c] * error[c];
-  return {scene.side_name(surface, side), scene.area(surface), material.exitance_of(side) + rho * irradiance.value,
-          irradiance.value, error};
+  const Spectrum rho = material.reflectance_of(side), error = error_95(irradiance);
+  SurfaceRow row{scene.side_name(surface, side),
+                 scene.area(surface),
+                 material.exitance_of(side) + rho * irradiance.value,
+                 irradiance.value,
+                 reflected_error(rho, error),
+                 error};
+  if (!material.is_diffuse()) {
+    row.radiosity = Spectrum(std::numeric_limits<double>::quiet_NaN());
+    row.radiosity_error = Spectrum(std::numeric_limits<double>::infinity());
+  }
+  return row;
 }
 
 std::string surfaces_csv(std::span<const SurfaceRow> rows, const scene::Scene& scene) {
   const int channels = scene.channel_count();
+  constexpr std::array columns{
+      std::pair{"radiosity", &SurfaceRow::radiosity}, std::pair{"irradiance", &SurfaceRow::irradiance},
+      std::pair{"error", &SurfaceRow::radiosity_error}, std::pair{"irradiance_error", &SurfaceRow::irradiance_error}};
   Csv csv;
-  csv.text("name")
-      .text("area")
-      .headings("radiosity", channels)
-      .headings("irradiance", channels)
-      .headings("error", channels);
-  for (const char* weighed : {"radiosity", "irradiance", "error"}) csv.text(weighed);
+  csv.text("name").text("area");
+  for (const auto& [name, values] : columns) csv.headings(name, channels);
+  for (const auto& [name, values] : columns) csv.text(name);
   csv.end_line();
   for (const SurfaceRow& row : rows) {
-    csv.text(row.name).number(row.area).numbers(row.radiosity, channels).numbers(row.irradiance, channels);
-    csv.numbers(row.error, channels);
-    for (const Spectrum& value : {row.radiosity, row.irradiance, row.error}) csv.number(scene.weigh(value));
+    csv.text(row.name).number(row.area);
+    for (const auto& [name, values] : columns) csv.numbers(row.*values, channels);
+    for (const auto& [name, values] : columns) csv.number(scene.weigh(row.*values));
     csv.end_line();
   }
   return csv.str();

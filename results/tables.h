@@ -18,25 +18,35 @@ namespace interflect::results {
 /// is.
 Spectrum error_95(const Estimate& estimate);
 
-/// A side of a surface: area means [W/m² | lm/m², lx].
+/// Half the width of an interval of rho H from that of H: 0 where nothing is reflected, even if H is not known.
+Spectrum reflected_error(const Spectrum& reflectance, const Spectrum& irradiance_error);
+
+/// A side of a surface: area means [W/m² | lm/m², lx], and half the widths of their 95 % intervals.
 struct SurfaceRow {
   std::string name;  ///< of the side
   double area;       ///< [m²]
   Spectrum radiosity, irradiance;
-  Spectrum error;  ///< of the radiosity
+  Spectrum radiosity_error, irradiance_error;
 };
 
-/// Means over each part of a mesh, from values per element.  The error of a mean is at most the mean of the errors.
-std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::ElementMesh& mesh,
-                                      std::span<const Spectrum> radiosity, std::span<const Spectrum> irradiance,
-                                      std::span<const Spectrum> error);
+/// What is known of each element of a mesh.
+struct ElementValues {
+  std::span<const Spectrum> radiosity, irradiance;
+  std::span<const Spectrum> radiosity_error, irradiance_error;  ///< half the widths of 95 % intervals
+};
 
-/// A row from an estimate of the mean irradiance of a side: B = E + rho H, and rho times its error.
+/// Means over each part of a mesh.  The error of a mean is at most the mean of the errors.
+std::vector<SurfaceRow> surface_means(const scene::Scene& scene, const mesh::ElementMesh& mesh,
+                                      const ElementValues& of);
+
+/// A row from an estimate of the mean irradiance of a side: B = E + rho H, and rho times its error.  What leaves a
+/// mirror, glass, a coat or a net is more than that: NaN, and an infinite error.
 SurfaceRow surface_row(const scene::Scene& scene, scene::SurfaceId surface, scene::Side side,
                        const Estimate& irradiance);
 
-/// `name,area,radiosity_0,..,irradiance_0,..,error_0,..,radiosity,irradiance,error`, a line a row: of each channel of
-/// the scene, and weighed over them (lx).
+/// `name,area`, then `radiosity_0,..,irradiance_0,..,error_0,..,irradiance_error_0,..` of each channel of the
+/// scene, and `radiosity,irradiance,error,irradiance_error` weighed over them (lx), a line a row; `error` is of the
+/// radiosity.
 std::string surfaces_csv(std::span<const SurfaceRow> rows, const scene::Scene& scene);
 void write_surfaces_csv(const std::filesystem::path& file, std::span<const SurfaceRow> rows, const scene::Scene& scene);
 

@@ -128,6 +128,8 @@ void check_reference(Certificate& certificate) {
   const double limit = certificate.settings.reference_limit;
   if (norms.measurements == 0)
     certificate.reasons.insert(certificate.reasons.begin(), "no surface and no element was judged");
+  else if (norms.mean_irradiance == 0 && norms.l2.value == 0)
+    certificate.reasons.insert(certificate.reasons.begin(), "no light reaches what was judged, which tells nothing");
   if (norms.reference_error > limit)
     certificate.reasons.push_back(
         format("the reference is too noisy to judge by: its 95 %% error is %s, and %s was asked for",

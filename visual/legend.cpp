@@ -26,15 +26,16 @@ struct Measured {
     double part;
     TextLine label;
   };
-  TextLine title;
+  TextLine title, spacing;  ///< the second empty where numbers are as far apart as they differ
   std::vector<Tick> ticks;
   int bar = 0, labels = 0;  ///< widths
-  int width(int gap) const { return std::max(title.width, bar + gap + labels); }
+  int width(int gap) const { return std::max({title.width, spacing.width, bar + gap + labels}); }
 };
 
 Measured measured(const Legend& legend, int size) {
   Measured m;
   m.title = set_in_type(legend.title, size);
+  if (legend.range.logarithmic) m.spacing = set_in_type("logarithmic scale", size);
   m.bar = (size * 3) / 2;
   const std::vector<double> ticks = ticks_of(legend.range);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : legend.range.high - legend.range.low;
@@ -91,6 +92,15 @@ void paste(const core::Image& picture, core::Image& canvas, int left, int top) {
                 canvas.data.begin() + static_cast<std::ptrdiff_t>(canvas.offset(left, top + y)));
 }
 
+void draw_hatched(core::Image& canvas, int left, int top, int width, int height) {
+  const int rim = std::max(1, height / 16);
+  fill(canvas, left - rim, top - rim, width + 2 * rim, height + 2 * rim, faint);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      fill(canvas, left + x, top + y, 1, 1,
+           hatching::on_stripe(x, y, std::max(4, height / 3)) ? hatching::stripe : hatching::ground);
+}
+
 }  // namespace
 
 core::Image framed(const core::Image& picture, const std::string& caption, const Legend* legend, int* left, int* top) {
@@ -107,8 +117,10 @@ core::Image framed(const core::Image& picture, const std::string& caption, const
   draw_text(canvas, title, margin, margin + size + size / 8, ink);
   if (legend != nullptr) {
     const int x = margin + picture.width + margin;
-    const int bar_top = head + (m.title.empty() ? size / 2 : (9 * size) / 4);
+    const int second = m.spacing.empty() || m.title.empty() ? 0 : (5 * size) / 4;  // line, below the first
+    const int bar_top = head + (m.title.empty() && m.spacing.empty() ? size / 2 : (9 * size) / 4 + second);
     draw_text(canvas, m.title, x, head + size, ink);
+    draw_text(canvas, m.spacing, x, head + size + second, ink);
     draw_bar(canvas, *legend, m, x, bar_top, head + picture.height - bar_top - size / 2, size);
   }
   if (left != nullptr) *left = margin;
@@ -116,19 +128,22 @@ core::Image framed(const core::Image& picture, const std::string& caption, const
   return canvas;
 }
 
-core::Image noted(const core::Image& picture, const std::string& note) {
-  const int size = size_of_type(picture), gap = size / 2;
-  const TextLine line = set_in_type(note, size);
-  core::Image canvas =
-      white_canvas(std::max(picture.width, 4 * gap + 2 * size + line.width), picture.height + 2 * size);
+core::Image noted(const core::Image& picture, const std::vector<Note>& notes) {
+  if (notes.empty()) return picture;
+  const int size = size_of_type(picture), gap = size / 2, square = 2 * size, row = 2 * size;
+  std::vector<TextLine> lines;
+  int width = picture.width;
+  for (const Note& note : notes) {
+    lines.push_back(set_in_type(note.text, size));
+    width = std::max(width, lines.back().width + (note.hatched ? square + gap : 0) + 3 * gap);
+  }
+  core::Image canvas = white_canvas(width, picture.height + row * static_cast<int>(notes.size()));
   paste(picture, canvas, 0, 0);
-  const int left = gap, top = picture.height + gap, rim = std::max(1, size / 16);
-  fill(canvas, left - rim, top - rim, 2 * size + 2 * rim, size + 2 * rim, faint);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < 2 * size; ++x)
-      fill(canvas, left + x, top + y, 1, 1,
-           hatching::on_stripe(x, y, std::max(4, size / 3)) ? hatching::stripe : hatching::ground);
-  draw_text(canvas, line, left + 2 * size + gap, top + size - size / 8, ink);
+  for (std::size_t k = 0; k < notes.size(); ++k) {
+    const int top = picture.height + gap + row * static_cast<int>(k);
+    if (notes[k].hatched) draw_hatched(canvas, gap, top, square, size);
+    draw_text(canvas, lines[k], notes[k].hatched ? gap + square + gap : gap, top + size - size / 8, ink);
+  }
   return canvas;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 #include "results/colour_map.h"
@@ -8,7 +9,7 @@
 
 namespace interflect::visual {
 
-/// What the colours of a picture mean.
+/// What the colours of a picture mean.  A logarithmic range is said to be one below the title.
 struct Legend {
   std::string title;  ///< "irradiance [lx]"
   results::ColourMap map = results::ColourMap::plasma;
@@ -23,8 +24,12 @@ struct Legend {
 core::Image framed(const core::Image& picture, const std::string& caption, const Legend* legend, int* left = nullptr,
                    int* top = nullptr);
 
-/// The picture, its pixels where they were, with a line below it: a hatched square (hatching.h) and what that means.  Wide
-/// enough for the line.
-core::Image noted(const core::Image& picture, const std::string& note);
+/// A line below a picture, behind a square that is hatched (hatching.h) if that is what it tells of.
+struct Note {
+  std::string text;
+  bool hatched = false;
+};
+/// The picture, its pixels where they were, with lines below it: wide enough for them.
+core::Image noted(const core::Image& picture, const std::vector<Note>& notes);
 
 }  // namespace interflect::visual

@@ -75,6 +75,14 @@ void set_view(Raster& raster, const scene::Scene& scene, const mesh::ElementMesh
   raster.hatched = bare.faces;
 }
 
+/// What is to be said below a picture.
+std::vector<Note> notes_of(const std::string& own, const BareSurfaces& bare, bool any_hatched) {
+  std::vector<Note> notes;
+  if (!own.empty()) notes.push_back({own});
+  if (any_hatched) notes.push_back({note_of(bare), true});
+  return notes;
+}
+
 core::Image false_coloured(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
                            Raster raster, const Legend& legend, const FalseColour& options) {
   raster.edges = options.edges;
@@ -84,7 +92,7 @@ core::Image false_coloured(const Display& display, const scene::Scene& scene, co
            options.map == results::ColourMap::blue_white_red ? pale : white);
   bool any_hatched = false;
   const core::Image picture = framed(rasterised(display, raster, &any_hatched), options.caption, &legend);
-  return any_hatched ? noted(picture, note_of(bare)) : picture;
+  return noted(picture, notes_of(options.note, bare, any_hatched));
 }
 
 core::Image true_coloured(const Display& display, const scene::Scene& scene, const mesh::ElementMesh& mesh,
@@ -95,7 +103,7 @@ core::Image true_coloured(const Display& display, const scene::Scene& scene, con
   bool any_hatched = false;
   core::Image picture = rasterised(display, raster, &any_hatched);
   if (!options.caption.empty()) picture = framed(picture, options.caption, nullptr);
-  return any_hatched ? noted(picture, note_of(bare)) : picture;
+  return noted(picture, notes_of(options.note, bare, any_hatched));
 }
 
 Legend legend_of(const FalseColour& options, const Range& range, std::span<const double> values) {

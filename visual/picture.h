@@ -22,8 +22,9 @@ namespace interflect::visual {
 
 /// Numbers as colours, with a legend.
 struct FalseColour {
-  std::string title;    ///< of the legend, with the unit: "irradiance [lx]" ("m2" is set as m²)
-  std::string caption;  ///< over the picture
+  std::string title;      ///< of the legend, with the unit: "irradiance [lx]" ("m2" is set as m²)
+  std::string caption;    ///< over the picture
+  std::string note = {};  ///< below it
   results::ColourMap map = results::ColourMap::plasma;
   /// May be logarithmic.  Default: 0 to the 99th percentile by area, rounded up; symmetric for blue_white_red.
   std::optional<Range> range = {};
@@ -45,8 +46,9 @@ core::Image false_colour(const Display& display, const scene::Scene& scene, cons
 /// What an eye would see, tone mapped as results::ToneMapping says.
 struct TrueColour {
   std::string caption;
-  double white = 0;    ///< value shown as white; 0: the 99th percentile by area
-  bool smooth = true;  ///< interpolated inside surfaces; else each element in one colour
+  std::string note = {};  ///< below the picture
+  double white = 0;       ///< value shown as white; 0: the 99th percentile by area
+  bool smooth = true;     ///< interpolated inside surfaces; else each element in one colour
   std::optional<scene::Camera> camera = {};
   int width = 1200, height = 900;
 };

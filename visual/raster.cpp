@@ -20,6 +20,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "visual/film_heaps.h"
 #include "visual/hatching.h"
 
 namespace interflect::visual {
@@ -37,8 +38,10 @@ struct Frame {
 
 Frame frame_of(const Raster& raster) {
   Eigen::AlignedBox3d box;
-  for (const Polygons* each : {&raster.fronts, &raster.bare.polygons, &raster.clear.polygons})
+  for (const Polygons* each : {&raster.fronts, &raster.bare.polygons})
     for (const Vec3& p : each->corners) box.extend(p);
+  for (const Polygons& body : raster.clear)
+    for (const Vec3& p : body.corners) box.extend(p);
   return {0.5 * (box.min() + box.max()), 1 / std::max(box.diagonal().norm(), 1e-300)};
 }
 
@@ -157,16 +160,30 @@ std::vector<std::uint32_t> faces_in(const Raster& raster, int factor) {
     return codes_of(polygons, faces, raster.hatched);
   };
   const std::vector<Colour> fronts = codes(raster.fronts, raster.faces),
-                            bare = codes(raster.bare.polygons, raster.bare.faces),
-                            clear = codes(raster.clear.polygons, raster.clear.faces);
-  const std::array drawings{Drawing{raster.fronts, fronts}, Drawing{raster.bare.polygons, bare},
-                            Drawing{raster.clear.polygons, clear}};
+                            bare = codes(raster.bare.polygons, raster.bare.faces);
+  const std::array drawings{Drawing{raster.fronts, fronts}, Drawing{raster.bare.polygons, bare}};
   std::vector<std::uint32_t> faces;
   for (const Colour& colour : drawn(raster, drawings, colour_of_code(last_code), factor).colours) {
     const std::uint32_t code = code_of_colour(colour);
     faces.push_back(code == last_code ? Samples::nothing : code);
   }
   return faces;
+}
+
+/// Where each body of a heap is seen: all that is not clear hides it, and nothing else.
+std::vector<std::uint8_t> clear_bodies_in(const Raster& raster, std::span<const std::size_t> heap, int factor) {
+  constexpr std::size_t most = 255;  // of more some share a number
+  const std::vector<Colour> hidden(std::max(raster.fronts.corners.size(), raster.bare.polygons.corners.size()),
+                                   colour_of_code(0));
+  std::vector<std::vector<Colour>> codes;
+  std::vector<Drawing> drawings{{raster.fronts, hidden}, {raster.bare.polygons, hidden}};
+  for (const std::size_t body : heap)
+    codes.emplace_back(raster.clear[body].corners.size(), colour_of_code(1 + static_cast<std::uint32_t>(body % most)));
+  for (std::size_t k = 0; k < heap.size(); ++k) drawings.push_back({raster.clear[heap[k]], codes[k]});
+  std::vector<std::uint8_t> bodies;
+  for (const Colour& colour : drawn(raster, drawings, colour_of_code(0), factor).colours)
+    bodies.push_back(static_cast<std::uint8_t>(code_of_colour(colour)));
+  return bodies;
 }
 
 Colour mixed(const Colour& a, const Colour& b, double part_of_b) {
@@ -220,11 +237,14 @@ core::Image rasterised(const Display&, const Raster& raster, bool* any_hatched) 
   }
   if (!raster.faces.empty()) {
     constexpr int pixels_enough = 64;
+    constexpr std::size_t most_heaps = 8;  // each is drawn and kept; what stands behind as many may stay hidden
     samples.faces = faces_in(raster, factor);
+    for (const std::vector<std::size_t>& heap : film_heaps(raster.clear, raster.camera, most_heaps))
+      samples.clear.push_back(clear_bodies_in(raster, heap, factor));
     leave_out_specks(samples);
     const bool any = hatching::hatch(samples, raster.hatched, period_of_hatching(side, factor));
     if (any_hatched != nullptr) *any_hatched = any;
-    if (raster.outlines) draw_outlines(samples, reach_of_outlines(side, factor), pixels_enough * factor * factor);
+    draw_outlines(samples, reach_of_outlines(side, factor), pixels_enough * factor * factor, raster.outlines);
   }
   return reduced(samples, factor);
 }

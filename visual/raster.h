@@ -23,11 +23,11 @@ struct Raster {
   /// Of each of them: Samples::back, or the number of what it is a part of, from 1.  May be empty: then there are no
   /// outlines, and specks of backs stay.
   std::vector<std::uint32_t> faces;
-  /// Besides: what has no edges, and clear surfaces, behind which all else shows.
-  Layer bare, clear;
-  std::uint32_t hatched = 0;  ///< faces 1 .. hatched are (hatching.h), wherever they are
-  bool edges = false;         ///< of polygons, drawn over them, a quarter dark
-  bool outlines = false;      ///< of faces
+  Layer bare;                   ///< besides: what has no edges
+  std::vector<Polygons> clear;  ///< bodies behind which all else shows, each other too; all hatched
+  std::uint32_t hatched = 0;    ///< faces 1 .. hatched are (hatching.h), wherever they are
+  bool edges = false;           ///< of polygons, drawn over them, a quarter dark
+  bool outlines = false;        ///< of faces; clear bodies have them anyway
   results::Colour background{255, 255, 255};
   scene::Camera camera;  ///< pixels as in scene::Camera
 };

@@ -177,7 +177,7 @@ void answer_film(const BidirectionalEstimator& walks, const RareInPixels& rare, 
       warn_of_bugs(tallies[p], what, m, seed);
       report.add(m, tallies[p]);
       estimates[m] = tallies[p].estimate(inv_pi * walks.largest_score());
-      rare.light.add_to(estimates[m], inv_pi, rare.from[p], report);
+      rare.light.add_to(estimates[m], inv_pi, rare.from[p], m, report);
     }
   }
 }

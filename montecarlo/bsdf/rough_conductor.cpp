@@ -2,6 +2,7 @@
 
 #include "core/fresnel.h"
 #include "montecarlo/bsdf/facet_albedo.h"
+#include "montecarlo/bsdf/kept_tables.h"
 #include "montecarlo/warp.h"
 
 namespace interflect::montecarlo {
@@ -12,6 +13,12 @@ double reflected_once(const Ggx& facets, double cosine) {
     const Vec3 way = core::reflected(v, h);
     return way.z() > 0 ? facet_weight(facets, v, way) : 0;
   });
+}
+
+CosineTable table_of(const Ggx& facets, double alpha, bool compensated) {
+  static KeptTables tables;
+  if (!compensated) return CosineTable([](double) { return 1; });
+  return tables.of({alpha, 0}, [&](double cosine) { return reflected_once(facets, cosine); });
 }
 
 Vec3 up(Vec3 v) {
@@ -25,7 +32,7 @@ RoughConductor::RoughConductor(double alpha, MetalFresnel fresnel, Scattering sc
     : facets_(alpha),
       fresnel_(std::move(fresnel)),
       compensated_(scattering == Scattering::compensated),
-      E_([&](double cosine) { return compensated_ ? reflected_once(facets_, cosine) : 1; }) {
+      E_(table_of(facets_, alpha, compensated_)) {
   const double lost = 1 - E_.mean();
   if (!(compensated_ && lost > 1e-7)) {
     compensated_ = false;  // nothing to speak of

@@ -4,6 +4,7 @@
 
 #include "core/fresnel.h"
 #include "montecarlo/bsdf/facet_albedo.h"
+#include "montecarlo/bsdf/kept_tables.h"
 #include "montecarlo/warp.h"
 
 namespace interflect::montecarlo {
@@ -20,6 +21,12 @@ double scattered_once(const Ggx& facets, double eta, double cosine) {
   });
 }
 
+CosineTable table_of(const Ggx& facets, double alpha, double eta, bool compensated) {
+  static KeptTables tables;
+  if (!compensated) return CosineTable([](double) { return 1; });
+  return tables.of({alpha, eta}, [&](double cosine) { return scattered_once(facets, eta, cosine); });
+}
+
 Vec3 turned(const Vec3& v, bool over) { return over ? Vec3(v.x(), v.y(), -v.z()) : v; }
 
 /// Halfway between two directions, on the front's side; their sum is of them times the indices on their sides.
@@ -34,9 +41,8 @@ RoughDielectric::RoughDielectric(double alpha, double eta, Scattering scattering
     : facets_(alpha),
       eta_(eta),
       compensated_(scattering == Scattering::compensated),
-      arriving_{
-          Arriving{CosineTable([&](double c) { return compensated_ ? scattered_once(facets_, eta, c) : 1; }), 0},
-          Arriving{CosineTable([&](double c) { return compensated_ ? scattered_once(facets_, 1 / eta, c) : 1; }), 0}} {
+      arriving_{Arriving{table_of(facets_, alpha, eta, compensated_), 0},
+                Arriving{table_of(facets_, alpha, 1 / eta, compensated_), 0}} {
   const double least = 1 - std::max(arriving_[0].once.mean(), arriving_[1].once.mean());
   if (!(compensated_ && least > 1e-7)) {
     compensated_ = false;  // nothing to speak of

@@ -112,8 +112,16 @@ TEST(BadInput, names_that_are_empty) {
     expect_refused({"solve", scene, "-o", "x", name, ""}, std::string(name) + ": the name of a");
   expect_refused({"render", scene, "-o", "x.png", "--camera", ""}, "--camera: the name of a camera is expected");
   expect_refused({"trace", scene, "-o", "x.png", "--estimates", ""}, "--estimates: the name of a folder is expected");
+  expect_refused({"trace", scene, "-o", "x.png", "--paths", ""},
+                 "--paths: a class of paths, such as L.*E, is expected");
   expect_refused({"solve", "", "-o", "x"}, "SCENE: the name of a scene file is expected");
   expect_refused({"solve", scene, "-o", ""}, "--out: the name of a folder is expected");
+}
+
+TEST(BadInput, numbers_that_are_not_whole) {
+  for (const char* samples : {"1.5", "0", "-1", "1e4", "16777217", ""})
+    expect_refused({"trace", shipped_scene("cube"), "-o", "x.png", "--spp", samples},
+                   "--spp: '" + std::string(samples) + "' is not a whole number from 1 to 16777216");
 }
 
 TEST(BadInput, percents_out_of_a_range_that_is_told_in_percents) {

@@ -76,6 +76,81 @@ TEST(Compare, holds_integrators_against_each_other_with_files_and_pictures) {
   for (const json& each : said.at("differences")) EXPECT_EQ(each.at("samples"), 2) << each;
 }
 
+// A lamp that throws its light into a mirror alone, which path tracing meets by chance, once in thousands: its picture
+// lacks that by errors that do not know of it, and numbers that were sampled for long enough agree.
+TEST(Compare, says_which_pictures_lack_light_that_their_errors_do_not_know) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.json", R"({
+  "format": "interflect/scene/1", "units": "m", "quantity": "radiometric",
+  "materials": {
+    "mirror": { "type": "mirror", "reflectance": 0.9 },
+    "grey": { "type": "diffuse", "reflectance": 0.5 },
+    "lamp": { "type": "diffuse", "reflectance": 0, "exitance": 100 }
+  },
+  "geometry": [
+    { "name": "mirror", "material": "mirror", "polygon": [[0, 0, 0], [0, 2, 0], [0, 2, 2], [0, 0, 2]] },
+    { "name": "floor", "material": "grey", "polygon": [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]] },
+    { "name": "lamp", "material": "lamp",
+      "polygon": [[0.5, 1, 1], [0.5, 1.05, 1], [0.55, 1.05, 1], [0.55, 1, 1]] }
+  ],
+  "cameras": [ { "name": "c", "eye": [1, 1, 1.9], "target": [1, 1, 0], "up": [0, 1, 0], "fov_y_deg": 50,
+                 "size": [96, 96] } ]
+})");
+  const Outcome outcome = interflect({"compare", scene, "--integrators", "path,bidirectional", "--target", "40%",
+                                      "--replications", "0", "--spp", "4", "-o", folder / "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "all agree on what was measured; pictures are not judged")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "path.png: light of lamp by way of mirrors")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "compared_bidirectional_path.png: of 256 blocks bidirectional is brighter in "))
+      << outcome.out;
+  const json said = json::parse(read_file(folder / "out/compare.json"));
+  EXPECT_TRUE(said.at("drawn").at(0).contains("rare_light"));
+  EXPECT_FALSE(said.at("drawn").at(1).contains("rare_light"));  // walks from the lamp find it
+  const json& differs = said.at("differences").at(0);
+  EXPECT_FALSE(differs.at("explained_by_errors"));
+  EXPECT_TRUE(contains(differs.at("rare_light"), "path: light of lamp"));
+  EXPECT_GT(differs.at("blocks_brighter"), differs.at("blocks_by_chance")) << differs;
+  EXPECT_LE(differs.at("blocks_darker"), differs.at("blocks_by_chance")) << differs;
+}
+
+// What the table says is what measuring took, and the rest is told beside it.
+TEST(Compare, says_what_its_time_went_to) {
+  const TemporaryFolder folder;
+  const auto compare = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all{"compare",
+                                 shipped_scene("furnace"),
+                                 "--integrators",
+                                 "path,distributed",
+                                 "--target",
+                                 "5%",
+                                 "--spp",
+                                 "2",
+                                 "-o",
+                                 folder / "out"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = interflect(all);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return std::make_pair(outcome.out, json::parse(read_file(folder / "out/compare.json")));
+  };
+  const auto [text, said] = compare({});
+  const json& took = said.at("processor_seconds");
+  double in_table = 0;
+  for (const json& kind : said.at("kinds"))
+    for (const json& each : kind.at("integrators")) in_table += each.at("processor_seconds").get<double>();
+  EXPECT_NEAR(took.at("measuring"), in_table, 1e-9);
+  for (const char* step : {"on_common_paths", "replications", "pictures"}) EXPECT_GT(took.at(step), 0) << step;
+  EXPECT_EQ(took.at("solving"), 0);
+  EXPECT_GT(said.at("seconds"), 0);
+  EXPECT_TRUE(contains(text, "took ") && contains(text, " measuring (the table's column), ") &&
+              contains(text, " once more on the paths that pairs have in common, ") &&
+              contains(text, " in replications (--replications), ") && contains(text, " for pictures (--spp, "))
+      << text;
+  const auto [few_text, few] = compare({"--replications", "0", "--no-pictures"});
+  EXPECT_EQ(few.at("processor_seconds").at("replications"), 0);
+  EXPECT_EQ(few.at("processor_seconds").at("pictures"), 0);
+  EXPECT_FALSE(contains(few_text, "--no-pictures") || contains(few_text, "--replications")) << few_text;
+}
+
 // In the next run's folder nothing looks like its own that is not; what another command drew there is nobody else's.
 TEST(Compare, removes_the_pictures_of_the_comparison_before_and_no_others) {
   const TemporaryFolder folder;

@@ -84,6 +84,8 @@ TEST(Solve, a_forecast_is_a_result_and_needs_no_folder) {
     const json said = json::parse(as_json.out);
     for (const char* key : {"elements", "bytes", "seconds"}) EXPECT_GT(said.at(key), 0) << key;
     EXPECT_EQ(said.contains("tracing_seconds"), std::string(command) == "validate");
+    const std::string help = interflect({command, "--help"}).out;
+    EXPECT_TRUE(contains(help, "--out TEXT REQUIRED without --forecast")) << help;
   }
 }
 

@@ -14,8 +14,9 @@ TEST(Program, says_what_it_is) {
 }
 
 TEST(Program, each_command_has_help_with_an_example) {
-  for (const char* command : {"solve", "validate", "render", "trace", "compare", "view-factors", "compare-form-factors",
-                              "solvers", "compare-solvers", "shoot", "dim", "exchange", "info", "check"}) {
+  for (const char* command :
+       {"solve", "validate", "render", "trace", "compare", "view-factors", "compare-form-factors", "solvers",
+        "integrators", "compare-solvers", "shoot", "dim", "exchange", "info", "check"}) {
     const Outcome help = interflect({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_TRUE(contains(help.out, "Example:\n  interflect " + std::string(command))) << help.out;
@@ -46,7 +47,7 @@ std::vector<std::string> example_of(const std::string& help, const std::string& 
 // Stopped after a second where it takes longer: what is no command line, or has no such scene, ends with 2.
 TEST(Program, examples_in_help_are_command_lines) {
   for (const char* command : {"solve", "validate", "render", "trace", "compare", "view-factors", "compare-form-factors",
-                              "solvers", "compare-solvers", "shoot", "exchange", "info", "check"}) {
+                              "solvers", "integrators", "compare-solvers", "shoot", "exchange", "info", "check"}) {
     const TemporaryFolder folder;
     std::vector<std::string> example = example_of(interflect({command, "--help"}).out, command, folder);
     for (const char* more : {"--max-time", "1s"}) example.emplace_back(more);

@@ -39,6 +39,7 @@ TEST(Solve, is_done_by_rays_alone) {
   ASSERT_EQ(solved.status, 0) << solved.err;
   EXPECT_TRUE(contains(solved.out, "standard error")) << solved.out;
   EXPECT_FALSE(contains(solved.out, "sum_j F_ij")) << solved.out;
+  EXPECT_TRUE(contains(solved.out, "which more rays do not lower")) << solved.out;
   EXPECT_TRUE(std::filesystem::exists(folder / "out/solution.vtu"));
   const json summary = json::parse(read_file(folder / "out/summary.json"));
   EXPECT_EQ(summary.at("settings").at("solver"), "regular-stochastic-jacobi");

@@ -34,10 +34,70 @@ TEST(Solvers, that_refuse_say_why_below_the_table) {
       interflect({"compare-solvers", shipped_scene("cornell_box"), "--element-size", "0.3", "--solvers", "jacobi",
                   "control-variate-stochastic-jacobi", "-o", folder / "out"});
   EXPECT_EQ(compared.status, 0) << compared.err;
-  const std::string table = compared.out.substr(compared.out.find("sweeps to"));
+  EXPECT_TRUE(contains(compared.out, "control-variate-stochastic-jacobi: refused\n")) << compared.out;
+  const std::string table = compared.out.substr(compared.out.find("work to 10 %"));
   EXPECT_TRUE(contains(table, "  refused\nrefused: solver 'control-variate-stochastic-jacobi': a closed room expected"))
       << compared.out;
   EXPECT_LT(table.find('\n'), 120u) << table;
+}
+
+// What `solvers` says that `solve` does not take, or takes only in part, is what it refuses.
+TEST(Solvers, are_listed_with_what_solve_makes_of_them) {
+  const TemporaryFolder folder;
+  const auto solve = [&](const std::string& solver, const char* scene, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{
+        "solve", shipped_scene(scene), "--element-size", "0.5", "--solver", solver, "--no-pictures",
+        "-o",    folder / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return interflect(arguments).status;
+  };
+  std::size_t refused = 0;
+  const json list = json::parse(interflect({"solvers", "--json"}).out);
+  for (const json& each : list.at("solvers")) {
+    const std::string name = each.at("name"), in_solve = each.at("in_solve");
+    const bool samples = each.at("samples");
+    EXPECT_EQ(each.at("solve_takes_it"), in_solve != "no") << name;
+    if (in_solve == "no") {
+      EXPECT_EQ(solve(name, "cube"), 2) << name;
+    } else if (in_solve == "not at nodes") {
+      EXPECT_EQ(solve(name, "cube"), 0) << name;
+      EXPECT_EQ(solve(name, "cube", {"--projection", "vertices"}), 2) << name;
+    } else if (in_solve == "no mirrors") {
+      EXPECT_EQ(solve(name, "mirror_room"), 2) << name;
+    } else if (in_solve == "closed rooms") {
+      EXPECT_EQ(solve(name, "cornell_box"), 2) << name;
+      EXPECT_EQ(solve(name, "mirror_room"), 2) << name;
+    } else if (!samples) {
+      EXPECT_EQ(solve(name, "cube", {"--projection", "vertices"}), 0) << name;
+      continue;
+    } else {
+      continue;
+    }
+    ++refused;
+  }
+  EXPECT_GE(refused, 9u);
+}
+
+// Which one number it is has to be said, before the work.
+TEST(Solvers, of_one_number_want_to_be_told_which) {
+  const Outcome compared = interflect({"compare-solvers", shipped_scene("cube"), "--solvers", "adjoint", "-o", "x"});
+  EXPECT_EQ(compared.status, 2);
+  EXPECT_TRUE(contains(compared.err, "solver 'adjoint': it finds one number, and --goal says which")) << compared.err;
+}
+
+// What the numbers are of is said where they are.
+TEST(Solvers, are_compared_by_numbers_that_are_explained) {
+  const TemporaryFolder folder;
+  const auto compare = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"compare-solvers", shipped_scene("cornell_box"), "--element-size", "0.5", "-o",
+                                       folder / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return interflect(arguments).out;
+  };
+  const std::string all = compare({"--solvers", "jacobi"}),
+                    one = compare({"--noise", "10%", "--goal", "floor", "--solvers", "jacobi", "adjoint"});
+  EXPECT_TRUE(contains(all, "error: relative, L2 over the surfaces") && !contains(all, "rays")) << all;
+  EXPECT_TRUE(contains(one, "error: relative, of 'floor'") && contains(one, "rays of those that sample")) << one;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/format.h"
 #include "core/vec.h"
 #include "results/image_file.h"
 #include "tests/apps/csv_rows.h"
@@ -72,6 +73,29 @@ TEST(Trace, shows_one_group_of_lights_alone) {
   const Outcome unknown = interflect({"trace", scene, "-o", folder / "p.exr", "--group", "sun"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_TRUE(contains(unknown.err, "light group 'sun'") && contains(unknown.err, "ceiling, bulb")) << unknown.err;
+}
+
+// Standard errors fall as the root of the number of samples, so that one guess should do; and not silently.
+TEST(Trace, tells_of_a_target_that_its_samples_do_not_meet) {
+  const TemporaryFolder folder;
+  const auto trace = [&](const char* samples) {
+    return interflect({"trace", shipped_scene("cornell_box"), "--spp", samples, "--target", "15%", "-o",
+                       folder / "p.exr", "--json", "-q"});
+  };
+  const Outcome missed = trace("32");
+  EXPECT_EQ(missed.status, 1);
+  EXPECT_TRUE(contains(missed.err, "--target 15.00 % was not met: pixels' standard errors are ")) << missed.err;
+  const double error = json::parse(missed.out).at("relative_error");
+  EXPECT_GT(error, .15);
+  const std::size_t guess = missed.err.find("--spp ");
+  ASSERT_NE(guess, std::string::npos) << missed.err;
+  const double wanted = std::stod(missed.err.substr(guess + 6));
+  EXPECT_NEAR(wanted, 32 * std::pow(error / .15, 2), .1 * wanted);
+  EXPECT_TRUE(std::filesystem::exists(folder / "p.checkpoint.h5"));  // to go on from
+  const Outcome met = trace(core::format("%.0f", 2 * wanted).c_str());
+  EXPECT_EQ(met.status, 0) << met.err;
+  EXPECT_FALSE(contains(met.err, "--target")) << met.err;
+  EXPECT_LE(json::parse(met.out).at("relative_error"), .15);
 }
 
 // Of all integrators, in good scenes: none.

@@ -214,6 +214,12 @@ TEST(CompareFormFactors, holds_every_method_against_the_exact_one) {
             (std::set<std::string>{"analytic", "area-to-area", "duffy", "gauss-lambert", "global-lines", "hemicube",
                                    "hemicube-max", "hemicube-midpoint", "hemisphere-rays", "hybrid", "single-plane"}));
   EXPECT_TRUE(contains(read_file(folder / "out/form_factors.csv"), "method,setting,seconds,"));
+  const std::string told =
+      interflect({"compare-form-factors", shipped_scene("cube"), "--element-size", "1", "-o", folder / "out"}).out;
+  const std::string row = "hemicube-max       resolution 512";
+  const auto first = told.find(row);
+  ASSERT_NE(first, std::string::npos) << told;
+  EXPECT_EQ(told.find(row, first + 1), std::string::npos) << "a row once: " << told;
 }
 
 TEST(Scenes, are_expected_where_a_mesh_does_not_do) {

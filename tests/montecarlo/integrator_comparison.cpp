@@ -67,7 +67,8 @@ TEST(IntegratorComparison, replicates_by_runs_of_other_seeds) {
   core::LocalRun run(1, 2);
   const std::vector<std::string> names{"path", "light", "whitted"};
   settings.paths = measure::PathClasses::of("PE");
-  const auto comparison = compare_integrators(scene, ceiling_of(scene), names, settings, run.get(), 32);
+  const auto comparison =
+      compare_integrators(scene, ceiling_of(scene), names, settings, run.get(), {.replications = 32});
   ASSERT_EQ(comparison.pairs.size(), 3u);
   for (const IntegratorPair& pair : comparison.pairs)
     for (const auto& [found, again, name] :
@@ -86,6 +87,31 @@ TEST(IntegratorComparison, replicates_by_runs_of_other_seeds) {
       EXPECT_GT(means.standard_error(), .5 * found.standard_error[0]);
       EXPECT_LT(means.standard_error(), 2 * found.standard_error[0]);
     }
+}
+
+// Path tracing finds less than two others: they are asked for what it finds once each, the third pair for what it has.
+TEST(IntegratorComparison, asks_once_for_what_several_pairs_have_in_common) {
+  const scene::Scene scene = point_over_a_mirror();
+  IntegratorSettings settings;
+  settings.samples = 2000;
+  core::LocalRun run(1, 2);
+  const auto comparison = compare_integrators(scene, ceiling_of(scene), {"path", "light", "distributed"}, settings,
+                                              run.get(), {.replications = 4});
+  ASSERT_EQ(comparison.pairs.size(), 3u);
+  const IntegratorPair &with_path = comparison.pairs[0], &with_distributed = comparison.pairs[2];
+  ASSERT_EQ(comparison.trials[2].missed, "PSE");
+  EXPECT_EQ(with_path.of_b[0].value, with_distributed.of_a[0].value);
+  EXPECT_NE(with_path.of_b[0].value, comparison.trials[1].found[0].value);
+  ASSERT_EQ(with_path.again_b.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(with_path.again_b[k][0].value, with_distributed.again_a[k][0].value) << k;
+  const ComparisonTimes& took = comparison.times;
+  EXPECT_GT(took.measuring, 0);
+  EXPECT_GT(took.on_common_paths, 0);
+  EXPECT_GT(took.replications, 0);
+  double of_trials = 0;
+  for (const IntegratorTrial& trial : comparison.trials) of_trials += trial.processor_seconds;
+  EXPECT_DOUBLE_EQ(took.measuring, of_trials);
 }
 
 TEST(IntegratorComparison, asks_nobody_for_what_it_does_not_find) {

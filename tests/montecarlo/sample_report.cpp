@@ -8,6 +8,7 @@
 #include "tests/montecarlo/rooms.h"
 #include "tests/montecarlo/solution_rooms.h"
 #include "tests/montecarlo/statistics.h"
+#include "tests/montecarlo/sun_and_mirror.h"
 
 // What integrators tell of samples that are no numbers, or of which one is much.
 namespace interflect::montecarlo {
@@ -201,6 +202,26 @@ TEST(SampleReport, flags_what_is_found_by_rare_samples) {
   EXPECT_GT(rare.heavy[0].share, .05);
   EXPECT_LE(rare.heavy[0].share, 1);
   EXPECT_TRUE(common.heavy.empty());
+}
+
+// Of many the one that has the fewest samples is named; parts of a list keep whose it is.
+TEST(SampleReport, names_what_rare_light_may_be_missed_by) {
+  const scene::Scene scene = test::sun_and_mirror(1, scene::Sun::seen_from_earth);
+  const auto asked = test::asked_of_sun_and_mirror(scene, 1);
+  SampleReport part;
+  IntegratorSettings settings;
+  settings.samples = 4096, settings.report = &part;
+  core::LocalRun run(1, 2);
+  make_integrator("path", settings)->answer(scene, {&asked.flux, 1}, run.get());
+  ASSERT_FALSE(part.rare.empty());
+  EXPECT_EQ(part.rare_text({"floor"}).find("floor: light of sun by way of mirrors"), 0u) << part.rare_text({"floor"});
+  SampleReport whole;
+  EXPECT_EQ(whole.rare_text({}), "");
+  whole.add(part, std::vector<std::size_t>{2});
+  SampleReport better = part;
+  better.rare_samples *= 2;
+  whole.add(better, std::vector<std::size_t>{1});
+  EXPECT_EQ(whole.rare_text({"walls", "ceiling", "floor"}), part.rare_text({"floor"}));
 }
 
 }  // namespace

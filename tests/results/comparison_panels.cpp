@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "results/colour_map.h"
 
 using namespace interflect;
@@ -86,9 +87,60 @@ TEST(ComparisonPanels, what_neighbours_err_by_together_is_not_averaged) {
   EXPECT_EQ(difference(.54F, 2.4F), white);
 }
 
-TEST(ComparisonPanels, both_pictures_have_the_exposure_of_the_traced_one) {
-  const ComparisonPanels panels = comparison_panels(two_bands(), even(0.5F, 0), even(1, 0), even(0, 0), 0.1);
+TEST(ComparisonPanels, both_pictures_have_one_exposure_which_single_bright_samples_do_not_darken) {
+  const ComparisonPanels panels = comparison_panels(two_bands(), even(1, 0), even(0.5F, 0), even(0, 0), 0.1);
+  EXPECT_FLOAT_EQ(panels.fem.at(0, 0, 0), 1) << "cut off";
   EXPECT_FLOAT_EQ(panels.traced.at(0, 0, 0), 1);
-  EXPECT_NEAR(panels.fem.at(0, 0, 0), 0.735357, 1e-6);  // sRGB of 0.5
+  core::Image specks = even(0.5F, 0);
+  for (int y = 0; y < specks.height; y += 3) specks.at(0, y, 0) = 1000;
+  const ComparisonPanels beside_specks = comparison_panels(two_bands(), even(1, 0), specks, even(0, 0), 0.1);
+  EXPECT_FLOAT_EQ(beside_specks.fem.at(0, 0, 0), 1);
+  EXPECT_NEAR(beside_specks.traced.at(1, 1, 0), 0.735357, 1e-6);  // sRGB of 0.5
   EXPECT_THROW(comparison_panels(two_bands(), even(1, 1), even(1, 1, 5, 5), even(1, 1), 0.1), core::PreconditionError);
+}
+
+namespace {
+
+/// Errors of 1 a pixel, each pixel of its own, by twelve uniform numbers; a loss of so many errors of a block's mean in
+/// every third block column.
+core::Image noisy(std::uint64_t seed, double loss) {
+  constexpr int side = 60;
+  core::Image image(side, side, {"visible", "heat"});
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      core::RandomNumbers random(seed, 0, static_cast<std::uint64_t>(y * side + x));
+      double noise = -6;
+      for (int k = 0; k < 12; ++k) noise += random.next();
+      image.at(x, y, 0) = static_cast<float>(100 + noise - (x / 6 % 3 == 0 ? loss / 6 : 0));
+    }
+  return image;
+}
+
+BlocksApart apart(std::uint64_t seed, double loss) {
+  return comparison_panels(two_bands(), even(100, 0, 60, 60), noisy(seed, loss), even(1, 0, 60, 60), 0.1).apart;
+}
+
+}  // namespace
+
+// P(Binomial(100, .0027) > 2) = .0026, and > 1 = .030: the level is .01.
+TEST(ComparisonPanels, count_blocks_that_are_not_white_and_how_many_chance_explains) {
+  EXPECT_EQ((BlocksApart{100, 2, 0}).by_chance(), 2u);
+  EXPECT_TRUE((BlocksApart{100, 1, 1}).is_explained());
+  EXPECT_FALSE((BlocksApart{100, 2, 1}).is_explained());
+  EXPECT_EQ((BlocksApart{}).by_chance(), 0u);
+  EXPECT_TRUE(BlocksApart{}.is_explained());
+  const std::size_t many = BlocksApart{1'000'000}.by_chance();  // 2700 +- 52, 2.33 of them
+  EXPECT_NEAR(static_cast<double>(many), 2700 + 2.33 * 51.9, 10);
+}
+
+// 200 innocent pictures: .5 are expected to be blamed, more than 4 with a probability of 2e-4.
+TEST(ComparisonPanels, know_what_errors_explain_from_what_they_do_not) {
+  int blamed = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) blamed += !apart(seed, 0).is_explained();
+  EXPECT_LE(blamed, 4);
+  const BlocksApart lost = apart(1, 4);  // 40 blocks darker by 4 errors, of which 84 % are beyond 3
+  EXPECT_EQ(lost.blocks, 100u);
+  EXPECT_GE(lost.brighter, 24u);  // 34 +- 2.3, four of them
+  EXPECT_LE(lost.darker, 2u);
+  EXPECT_FALSE(lost.is_explained());
 }

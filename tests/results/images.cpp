@@ -73,6 +73,10 @@ TEST(Images, only_known_extensions_are_taken) {
   EXPECT_THROW(require_image_extension("image.jpg"), core::InputError);
   EXPECT_THROW(require_image_extension("image"), core::InputError);
   EXPECT_NO_THROW(require_image_extension("a/image.PNG"));
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "taken.png");
+  EXPECT_THROW(require_both_images(folder / "taken.exr"), core::InputError);
+  EXPECT_NO_THROW(require_both_images(folder / "free.exr"));
   EXPECT_THROW(write_image("image.jpg", gradient(2, 2, {"Y"})), core::InputError);
 }
 

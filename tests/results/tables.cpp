@@ -57,32 +57,34 @@ scene::Scene grey() { return of_channels({"y"}); }
 TEST(Tables, names_of_every_kind_survive_csv) {
   const std::string names[] = {"plain", "a,b", "say \"hi\"", "two\nlines", "\"", "", "ümlaut", " spaces "};
   std::vector<SurfaceRow> rows;
-  for (const std::string& name : names) rows.push_back({name, 1, Spectrum(1), Spectrum(2), Spectrum(3)});
+  for (const std::string& name : names) rows.push_back({name, 1, Spectrum(1), Spectrum(2), Spectrum(3), Spectrum(4)});
   const auto lines = parsed(surfaces_csv(rows, grey()));
   ASSERT_EQ(lines.size(), rows.size() + 1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ASSERT_EQ(lines[i + 1].size(), 8u);
+    ASSERT_EQ(lines[i + 1].size(), 10u);
     EXPECT_EQ(lines[i + 1][0], names[i]);
   }
 }
 
 TEST(Tables, numbers_keep_twelve_digits_and_infinity_is_inf) {
   const double inf = std::numeric_limits<double>::infinity();
-  const auto lines = parsed(surfaces_csv(
-      std::vector<SurfaceRow>{{"a", 1.0 / 3, rgb(1e-7 / 3, 2e9 / 3, -0.0), rgb(inf, -inf, std::nan("")), rgb(1, 2, 3)}},
-      of_channels({"r", "g", "b"})));
+  const auto lines =
+      parsed(surfaces_csv(std::vector<SurfaceRow>{{"a", 1.0 / 3, rgb(1e-7 / 3, 2e9 / 3, -0.0),
+                                                   rgb(inf, -inf, std::nan("")), rgb(1, 2, 3), rgb(4, 5, 9)}},
+                          of_channels({"r", "g", "b"})));
   EXPECT_NEAR(std::stod(lines[1][1]) * 3, 1, 1e-11);
   EXPECT_NEAR(std::stod(lines[1][2]) * 3e7, 1, 1e-11);
   EXPECT_NEAR(std::stod(lines[1][3]) * 1.5e-9, 1, 1e-11);
   EXPECT_EQ(lines[1][5], "inf");
   EXPECT_EQ(lines[1][6], "-inf");
   EXPECT_EQ(lines[1][7].substr(0, 3), "nan");
-  EXPECT_EQ(lines[1].back(), "2") << "the channels' errors, weighed";
+  EXPECT_EQ(lines[1].back(), "6") << "the channels' errors, weighed";
 }
 
 TEST(Tables, the_headings_are_the_agreed_ones) {
   EXPECT_EQ(surfaces_csv({}, of_channels({"a", "b"})),
-            "name,area,radiosity_0,radiosity_1,irradiance_0,irradiance_1,error_0,error_1,radiosity,irradiance,error\n");
+            "name,area,radiosity_0,radiosity_1,irradiance_0,irradiance_1,error_0,error_1,"
+            "irradiance_error_0,irradiance_error_1,radiosity,irradiance,error,irradiance_error\n");
   EXPECT_EQ(sensors_csv({}, {}, grey()), "sensor,index,x,y,z,nx,ny,nz,value_0,error_0,value,error\n");
 }
 
@@ -102,7 +104,7 @@ TEST(Tables, a_line_a_side_has_area_means) {
   scene.surfaces = {{"floor", {}, 0, 0, {}}, {"leaf", {}, 0, 0, {}}};
   const mesh::ElementMesh mesh = tiny::mesh();
   const std::vector<Spectrum> b{rgb(1, 2, 3), rgb(3, 4, 5), rgb(7, 7, 7)}, h{rgb(1, 1, 1), rgb(2, 2, 2), rgb(3, 3, 3)};
-  const auto rows = surface_means(scene, mesh, b, h, h);
+  const auto rows = surface_means(scene, mesh, {b, h, h, b});
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].name, "floor");
   EXPECT_EQ(rows[1].name, "leaf/back");
@@ -110,7 +112,9 @@ TEST(Tables, a_line_a_side_has_area_means) {
   EXPECT_DOUBLE_EQ(rows[1].area, 0.5);
   EXPECT_DOUBLE_EQ(rows[0].radiosity[2], 4);
   EXPECT_DOUBLE_EQ(rows[0].irradiance[0], 1.5);
-  EXPECT_DOUBLE_EQ(rows[1].error[1], 3);
+  EXPECT_DOUBLE_EQ(rows[1].radiosity_error[1], 3);
+  EXPECT_DOUBLE_EQ(rows[0].irradiance_error[1], 3);
+  EXPECT_THROW(surface_means(scene, mesh, {b, h, h, {}}), core::PreconditionError);
 }
 
 TEST(Tables, an_estimate_of_irradiance_gives_the_same_columns) {
@@ -121,11 +125,32 @@ TEST(Tables, an_estimate_of_irradiance_gives_the_same_columns) {
   const SurfaceRow row = surface_row(scene, scene::SurfaceId{0}, scene::Side::front, H);
   EXPECT_DOUBLE_EQ(row.radiosity[0], 60);
   EXPECT_DOUBLE_EQ(row.radiosity[2], 30);
-  EXPECT_NEAR(row.error[0], 0.98, 1e-3);
+  EXPECT_NEAR(row.radiosity_error[0], 0.98, 1e-3);
+  EXPECT_EQ(row.radiosity_error[2], 0) << "nothing is reflected: the radiosity is known";
+  EXPECT_NEAR(row.irradiance_error[2], 1.96, 1e-3) << "but what arrives is not";
   H.error_bound = Spectrum(std::numeric_limits<double>::infinity());
   const SurfaceRow unknown = surface_row(scene, scene::SurfaceId{0}, scene::Side::front, H);
-  EXPECT_TRUE(std::isinf(unknown.error[0]));
-  EXPECT_EQ(unknown.error[2], 0);  // nothing is reflected: the radiosity is known
+  EXPECT_TRUE(std::isinf(unknown.radiosity_error[0]));
+  EXPECT_TRUE(std::isinf(unknown.irradiance_error[2]));
+  EXPECT_EQ(unknown.radiosity_error[2], 0);
+}
+
+// E + rho H is all that leaves a diffuse surface, and none else: a mirror throws on more than the nothing that its rho
+// would make of it.
+TEST(Tables, what_leaves_a_mirror_or_glass_is_not_said_to_be_known) {
+  for (const scene::Finish& finish :
+       {scene::Finish(scene::Mirror{Spectrum(.9)}), scene::Finish(scene::Glass{}), scene::Finish(scene::Plastic{})}) {
+    scene::Scene scene = grey();
+    scene::Material material{"shiny", Spectrum(), Spectrum(), scene::Sides::both};
+    material.finish = finish;
+    scene.materials = {material};
+    scene.surfaces = {{"panel", scene::MaterialId{0}, 0, 0, {}}};
+    const Estimate H = unbiased_estimate(Spectrum(100), Spectrum(1), 9);
+    const std::vector<SurfaceRow> rows{surface_row(scene, scene::SurfaceId{0}, scene::Side::back, H)};
+    const auto lines = parsed(surfaces_csv(rows, scene));
+    EXPECT_EQ(lines[1], (std::vector<std::string>{"panel/back", "0", "nan", "100", "inf", "1.95996398454", "nan", "100",
+                                                  "inf", "1.95996398454"}));
+  }
 }
 
 TEST(Tables, sensors_are_written_with_place_direction_and_error) {

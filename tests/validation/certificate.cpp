@@ -222,6 +222,18 @@ TEST(Certificate, the_least_of_many_noisy_points_may_lie_as_low_as_chance_puts_i
 
 TEST(Certificate, nothing_judged_is_not_a_pass) { EXPECT_FALSE(certificate_of({}).passed); }
 
+// Where both say 0 they agree, of whatever is wrong with either.
+TEST(Certificate, darkness_is_not_a_pass) {
+  std::vector<Judged> judged = synthetic::judged({}, 1);
+  for (Judged& each : judged) {
+    each.fem.value = each.mc.value = Spectrum::zero();
+    each.fem.error_bound = each.mc.standard_error = Spectrum::zero();
+  }
+  const Certificate dark = certificate_of(judged);
+  EXPECT_FALSE(dark.passed);
+  EXPECT_EQ(dark.reasons, (std::vector<std::string>{"no light reaches what was judged, which tells nothing"}));
+}
+
 TEST(Certificate, a_sampled_balance_adds_what_surfaces_absorb_with_its_error) {
   const double areas[] = {2, 3};
   const Spectrum reflectances[] = {Spectrum(0.5), Spectrum(0)};

@@ -6,6 +6,7 @@
 
 #include "tiny.h"
 #include "visual/faces.h"
+#include "visual/film_heaps.h"
 
 using namespace interflect;
 using namespace interflect::visual;
@@ -74,11 +75,65 @@ TEST(Outlines, are_light_on_what_is_dark) {
   EXPECT_EQ(changes(before, samples), (std::vector<std::string>{" ll "}));
 }
 
+// The edge of two faces that are by turns a little lighter and a little darker than what takes a light line.
+TEST(Outlines, are_not_dashed) {
+  constexpr int height = 60, parts = 6;  // of the picture
+  Samples before = samples_of(std::vector<std::string>(height, "ab"));
+  for (std::size_t k = 0; k < before.colours.size(); ++k) {
+    const auto grey = static_cast<std::uint8_t>(k / 2 % 2 == 0 ? 30 : 60);  // the threshold is 51
+    before.colours[k] = {grey, grey, grey};
+  }
+  Samples samples = before;
+  draw_outlines(samples, 1, 1);
+  const std::vector<std::string> drawn = changes(before, samples);
+  for (std::size_t y = 0; y < height; ++y) EXPECT_EQ(drawn[y], drawn[y - y % (height / parts)]) << y;
+}
+
+TEST(Outlines, of_clear_bodies_alone_are_drawn_where_faces_have_none) {
+  Samples before = samples_of({"aabb"});
+  before.clear = {{1, 0, 0, 0}};
+  Samples samples = before;
+  draw_outlines(samples, 1, 1, false);
+  EXPECT_EQ(changes(before, samples), (std::vector<std::string>{"dd  "}));
+}
+
 TEST(Outlines, leave_out_faces_that_are_small_in_the_picture) {
   const Samples before = samples_of({"aaacbbb"});
   Samples samples = before;
   draw_outlines(samples, 1, 2);
   EXPECT_EQ(samples.colours, before.colours);
+}
+
+// A pane over two walls: their edge is drawn through it, and its own.
+TEST(Outlines, of_clear_bodies_and_of_what_is_behind_them_are_drawn) {
+  Samples before = samples_of({"aaaabbbb", "aaaabbbb"});
+  before.clear = {{0, 0, 1, 1, 1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1}, {0, 0, 0, 0, 0, 0, 9, 9, 0, 0, 0, 0, 0, 0, 9, 9}};
+  Samples samples = before;
+  draw_outlines(samples, 1, 1);
+  EXPECT_EQ(changes(before, samples), (std::vector<std::string>{" dddddd ", " dddddd "}));
+  EXPECT_EQ(before.clear_bodies(1), 0);
+  EXPECT_EQ(before.clear_bodies(3), 1);
+  EXPECT_EQ(before.clear_bodies(6), 2);
+}
+
+TEST(FilmHeaps, hold_bodies_that_lie_apart_in_the_picture) {
+  const scene::Camera camera{"", Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3::UnitZ(), 60, 100, 100};
+  const auto square = [](double x, double y, double size) {
+    Polygons polygons;
+    const std::array<Colour, 4> same{bright, bright, bright, bright};
+    const Vec3 a(x, y, 0), b(x + size, y, 0), c(x + size, y, size), d(x, y, size);
+    polygons.add(std::array{a, b, c, d}, same);
+    return polygons;
+  };
+  const std::vector<Polygons> bodies{square(-1, 3, 0.8),    // left
+                                     square(0.2, 3, 0.8),   // right of it
+                                     square(-2, 6, 1.5),    // behind the left one
+                                     square(0.1, -1, 0.1),  // behind the eye: anywhere
+                                     square(-3, 9, 2)};     // behind both on the left
+  using Heaps = std::vector<std::vector<std::size_t>>;
+  EXPECT_EQ(film_heaps(bodies, camera, 9), (Heaps{{0, 1}, {2}, {3}, {4}}));
+  EXPECT_EQ(film_heaps(bodies, camera, 2), (Heaps{{0, 1}, {2, 3, 4}}));
+  EXPECT_EQ(film_heaps({}, camera, 2), Heaps{});
 }
 
 TEST(Faces, are_elements_of_a_material_that_hang_together) {

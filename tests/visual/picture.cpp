@@ -72,6 +72,21 @@ bool inside(const tiny::Floor& floor, const scene::Camera& camera, int x, int y,
   return true;
 }
 
+/// A surface as deep as the floor, from x0 to x1 at the height z, of a material of its own: without elements.
+void add_bare(tiny::Floor& floor, const scene::Finish& finish, scene::Sides sides, double x0, double x1, double z) {
+  const scene::SurfaceId id{static_cast<std::uint32_t>(floor.scene.surfaces.size())};
+  scene::Material material{"m", {}, {}, sides};
+  material.finish = finish;
+  floor.scene.materials.push_back(material);
+  scene::Surface surface{"s", {}, 0, 2, {}};
+  surface.material.value = static_cast<std::uint32_t>(floor.scene.materials.size() - 1);
+  surface.first_facet = static_cast<std::uint32_t>(floor.scene.facets.size()), surface.facets = 2;
+  floor.scene.surfaces.push_back(surface);
+  const Vec3 a(x0, 0, z), b(x1, 0, z), c(x1, 2, z), d(x0, 2, z);
+  floor.scene.facets.push_back(scene::make_facet(id, {a, b, c}));
+  floor.scene.facets.push_back(scene::make_facet(id, {a, c, d}));
+}
+
 }  // namespace
 
 TEST_F(Picture, shows_each_element_where_the_cameras_rays_meet_it) {
@@ -341,21 +356,8 @@ TEST_F(Picture, hatches_what_has_no_elements_and_says_so) {
   const core::Image without = true_colour(display(), floor.scene, floor.mesh, std::vector<std::array<double, 3>>(4),
                                           {.caption = {}, .white = 1, .camera = floor.camera(6)});
   EXPECT_EQ(without.height, 90);
-  const auto add = [&](const scene::Finish& finish, scene::Sides sides, double x0, double x1, double z) {
-    const scene::SurfaceId id{static_cast<std::uint32_t>(floor.scene.surfaces.size())};
-    scene::Material material{"m", {}, {}, sides};
-    material.finish = finish;
-    floor.scene.materials.push_back(material);
-    scene::Surface surface{"s", {}, 0, 2, {}};
-    surface.material.value = static_cast<std::uint32_t>(floor.scene.materials.size() - 1);
-    surface.first_facet = static_cast<std::uint32_t>(floor.scene.facets.size()), surface.facets = 2;
-    floor.scene.surfaces.push_back(surface);
-    const Vec3 a(x0, 0, z), b(x1, 0, z), c(x1, 2, z), d(x0, 2, z);
-    floor.scene.facets.push_back(scene::make_facet(id, {a, b, c}));
-    floor.scene.facets.push_back(scene::make_facet(id, {a, c, d}));
-  };
-  add(scene::Mirror{Spectrum(0.9)}, scene::Sides::front, 2, 4, 0);
-  add(scene::Pane{Spectrum(0.9)}, scene::Sides::both, 0, 1, 0.1);
+  add_bare(floor, scene::Mirror{Spectrum(0.9)}, scene::Sides::front, 2, 4, 0);
+  add_bare(floor, scene::Pane{Spectrum(0.9)}, scene::Sides::both, 0, 1, 0.1);
   FalseColour options;
   options.camera = floor.camera(6);
   options.range = Range{0, 3};
@@ -388,4 +390,90 @@ TEST_F(Picture, hatches_what_has_no_elements_and_says_so) {
                                         {.caption = {}, .white = 1, .camera = floor.camera(6)});
   EXPECT_GT(noted.height, 100);  // a line below it
   EXPECT_EQ(note_of(bare_surfaces(floor.scene, floor.mesh)), "hatched: no elements (mirror, glass)");
+}
+
+// A pane before a block of glass, the floor and a mirror.  All that was seen without it is seen with it but where its
+// stripes are, an eighteenth.  Of clear bodies one behind the other each has as many, and a mirror keeps its own, a
+// third.
+TEST_F(Picture, shows_behind_a_pane_what_is_there_without_it) {
+  tiny::Floor floor(2);
+  add_bare(floor, scene::Glass{1.5}, scene::Sides::both, 0, 1, 0.1);
+  add_bare(floor, scene::Mirror{Spectrum(0.9)}, scene::Sides::front, 2, 4, 0);
+  FalseColour options;
+  options.camera = floor.camera(6);
+  options.camera->width = 480, options.camera->height = 360;
+  options.range = Range{0, 3};
+  const auto drawn = [&] {
+    return false_colour(display(), floor.scene, floor.mesh, std::vector<double>(4, 3), options);
+  };
+  const core::Image without = drawn();
+  add_bare(floor, scene::Pane{Spectrum(0.9)}, scene::Sides::both, -1, 5, 0.5);
+  const core::Image with = drawn();
+
+  constexpr int ground = 228, stripe = 158;  // of hatching: any channel
+  const int of_floor = colour_of(options.map, 1)[2];
+  struct Part {
+    double x0, x1;  ///< of the floor's plane
+    int under;      ///< its blue without stripes
+    double before, after;
+    double striped_before = 0, striped = 0;
+    int pixels = 0, lost = 0;
+  };
+  std::array<Part, 3> parts{{{0.1, 0.9, of_floor, 1. / 18, 2. / 18},
+                             {1.1, 1.9, of_floor, 0, 1. / 18},
+                             {2.1, 3.9, ground, 1. / 3, 1. / 3 + 2. / 3 / 18}}};
+  const Place at = place_of(480, 360, "");
+  for (int y = 1; y < 359; ++y)
+    for (int x = 1; x < 479; ++x) {
+      const Vec3 eye = options.camera->eye, d = options.camera->direction(x + 0.5, y + 0.5);
+      const Vec3 p = eye - eye.z() / d.z() * d, on_pane = eye - (eye.z() - 0.5) / d.z() * d;
+      if (std::abs(p.y() - 1) > 0.9 || std::abs(on_pane.y() - 1) > 0.9) continue;
+      for (Part& part : parts) {
+        if (p.x() < part.x0 || p.x() > part.x1) continue;
+        const auto striped = [&](const core::Image& image) {  // what part of the pixel
+          return (pixel(image, at.left + x, at.top + y)[2] - part.under) / double(stripe - part.under);
+        };
+        ++part.pixels;
+        part.striped_before += striped(without);
+        part.striped += striped(with);
+        part.lost += striped(with) < striped(without) - 1e-9;
+      }
+    }
+  for (const Part& part : parts) {
+    EXPECT_GT(part.pixels, 3000);
+    EXPECT_EQ(part.lost, 0) << part.x0;
+    EXPECT_NEAR(part.striped_before / part.pixels, part.before, 0.01) << part.x0;  // the rim's stripes are cut off
+    EXPECT_NEAR(part.striped / part.pixels, part.after, 0.01) << part.x0;
+  }
+}
+
+TEST_F(Picture, a_logarithmic_legend_says_so) {
+  const core::Image plain(200, 300, {"R", "G", "B"});
+  Place at;
+  const auto second_line = [&](bool logarithmic) {
+    const Legend legend{"known within [lx]", ColourMap::plasma, {1, 100, logarithmic}, false, false};
+    const core::Image image = framed(plain, "", &legend, &at.left, &at.top);
+    int ink = 0;  // type is 13 pixels high here; below one line the first number's upper edge is at 24
+    for (int y = at.top + 18; y < at.top + 23; ++y)
+      for (int x = at.left + 210; x < image.width; ++x) ink += pixel(image, x, y)[1] < 120;
+    return ink;
+  };
+  EXPECT_EQ(second_line(false), 0);
+  EXPECT_GT(second_line(true), 40);
+}
+
+TEST_F(Picture, has_a_line_below_it_where_there_is_something_to_say) {
+  const tiny::Floor floor(2);
+  const std::vector<std::array<double, 3>> rgb(4, {1, 1, 1});
+  const core::Image plain = true_colour(display(), floor.scene, floor.mesh, rgb,
+                                        {.caption = {}, .white = 1, .camera = floor.camera(3)}),
+                    said = true_colour(display(), floor.scene, floor.mesh, rgb,
+                                       {.caption = {}, .note = "dimmed", .white = 1, .camera = floor.camera(3)});
+  EXPECT_GT(said.height, plain.height);
+  for (int y = 0; y < plain.height; ++y)
+    for (int x = 0; x < plain.width; ++x) ASSERT_EQ(pixel(said, x, y), pixel(plain, x, y)) << x << ' ' << y;
+  int ink = 0;
+  for (int y = plain.height; y < said.height; ++y)
+    for (int x = 0; x < said.width; ++x) ink += pixel(said, x, y)[1] < 120;
+  EXPECT_GT(ink, 30);
 }
