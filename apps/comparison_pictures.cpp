@@ -66,7 +66,7 @@ core::Image beside(const results::ComparisonPanels& panels, const DifferenceDraw
       panels,
       {told.a + but(told.of) + ", " + core::format_count(samples) + " samples a pixel", told.b + but(told.of),
        core::format("(%s - %s) / mean, white within 3 standard errors%s", told.a.c_str(), told.b.c_str(),
-                    told.apart.is_explained() ? "" : ": more than they explain")},
+                    told.is_beyond_errors() ? ": more than they explain" : "")},
       difference_scale);
 }
 

@@ -37,6 +37,11 @@ struct DifferenceDrawn {
   bool complete = false;      ///< both of them
   results::BlocksApart apart{};
   std::string rare{};  ///< light that errors of one or the other do not know of; empty: none
+
+  /// Errors of fewer samples a block are not known well enough to judge by.
+  static constexpr std::uint64_t fewest_samples = 500;
+  bool is_judged() const { return samples * results::BlocksApart::side * results::BlocksApart::side >= fewest_samples; }
+  bool is_beyond_errors() const { return is_judged() && !apart.is_explained(); }
 };
 
 struct PicturesDrawn {

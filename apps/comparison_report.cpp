@@ -8,6 +8,7 @@
 #include "core/format.h"
 #include "montecarlo/integrators.h"
 #include "montecarlo/measurable.h"
+#include "montecarlo/ray_tree/whitted.h"
 #include "montecarlo/tally.h"
 #include "results/csv.h"
 
@@ -66,9 +67,9 @@ std::string efficiency_table(const scene::Scene& scene, const std::vector<Compar
   return table.text() + without;
 }
 
-/// Of integrators whose error bound is that of a solution made before, or of a quadrature at its end.
+/// Of integrators whose error bound is that of a solution made before: samples do not lower it.
 bool is_beyond_by_its_bound(const scene::Scene& scene, const IntegratorTrial& trial, double target) {
-  return trial.refused.empty() && trial.relative_errors(scene).bound > target;
+  return montecarlo::integrator_entry(trial.integrator).inherits_error && trial.relative_errors(scene).bound > target;
 }
 
 std::string agreement_table(const std::vector<Compared>& all, double z_max) {
@@ -112,11 +113,26 @@ std::string bound_texts(const scene::Scene& scene, const std::vector<Compared>& 
       if (!is_beyond_by_its_bound(scene, trial, target)) continue;
       const montecarlo::RelativeErrors errors = trial.relative_errors(scene);
       text += core::format(
-          "%s misses --target %.3g %% of %s by its error bound, %.2g %% beside a noise of %.2g %%: %s\n",
-          trial.integrator.c_str(), 100 * target, of.kind.name.c_str(), 100 * errors.bound, 100 * errors.noise,
-          montecarlo::integrator_entry(trial.integrator).inherits_error
-              ? "more samples do not lower that, it is of the solution that they start from"
-              : "all the points that its quadrature may have do not lower it further");
+          "%s misses --target %.3g %% of %s by its error bound, %.2g %% beside a noise of %.2g %%: more samples do not "
+          "lower that, it is of the solution that they start from\n",
+          trial.integrator.c_str(), 100 * target, of.kind.name.c_str(), 100 * errors.bound, 100 * errors.noise);
+    }
+  return text;
+}
+
+/// Of quadratures, where they ended before they were known to be as good as asked.
+std::string quadrature_texts(const std::vector<Compared>& all, double target) {
+  std::string text;
+  for (const Compared& of : all)
+    for (const IntegratorTrial& trial : of.comparison.trials) {
+      if (!montecarlo::integrator_entry(trial.integrator).by_quadrature) continue;
+      const auto at_end = std::ranges::count_if(
+          trial.found, [](const Estimate& each) { return each.samples >= montecarlo::WhittedSettings{}.max_samples; });
+      if (at_end > 0)
+        text += core::format(
+            "%s of %s: %td of %zu took all the points that its quadrature may have, and may miss "
+            "--target %.3g %%\n",
+            trial.integrator.c_str(), of.kind.name.c_str(), at_end, trial.found.size(), 100 * target);
     }
   return text;
 }
@@ -202,7 +218,8 @@ results::Record record_of(const DifferenceDrawn& difference) {
   record.add("files", difference.files).add("samples", difference.samples).add("complete", difference.complete);
   const results::BlocksApart& apart = difference.apart;
   record.add("blocks", apart.blocks).add("blocks_brighter", apart.brighter).add("blocks_darker", apart.darker);
-  record.add("blocks_by_chance", apart.by_chance()).add("explained_by_errors", apart.is_explained());
+  record.add("blocks_by_chance", apart.by_chance());
+  if (difference.is_judged()) record.add("explained_by_errors", apart.is_explained());
   if (!difference.rare.empty()) record.add("rare_light", difference.rare);
   return record;
 }
@@ -212,7 +229,7 @@ std::string text_of(const DifferenceDrawn& difference) {
   const results::BlocksApart& apart = difference.apart;
   return core::format(
              "%s: of %zu blocks %s is brighter in %zu and darker in %zu by more than three standard errors, of which "
-             "chance explains %zu: errors of %llu samples a pixel do not know all, as of light that "
+             "chance explains %zu either way: errors of %llu samples a pixel do not know all, as of light that "
              "is met rarely",
              difference.files.front().c_str(), apart.blocks, difference.a.c_str(), apart.brighter, apart.darker,
              apart.by_chance(), static_cast<unsigned long long>(difference.samples)) +
@@ -260,8 +277,8 @@ bool all_agree(const std::vector<Compared>& all) {
 }
 
 std::string comparison_text(const scene::Scene& scene, const std::vector<Compared>& all, double target, double z_max) {
-  return efficiency_table(scene, all) + bound_texts(scene, all, target) + "\n" + agreement_table(all, z_max) +
-         refusals(all) + sample_texts(all) + verdict(all) + "\n";
+  return efficiency_table(scene, all) + bound_texts(scene, all, target) + quadrature_texts(all, target) + "\n" +
+         agreement_table(all, z_max) + refusals(all) + sample_texts(all) + verdict(all) + "\n";
 }
 
 std::string comparison_csv(const scene::Scene& scene, const std::vector<Compared>& all) {
@@ -298,7 +315,7 @@ std::string pictures_text(const PicturesDrawn& pictures) {
                            static_cast<unsigned long long>(each.report.not_finite));
   }
   for (const DifferenceDrawn& each : pictures.differences)
-    if (each.refused.empty() && !each.apart.is_explained()) text += text_of(each);
+    if (each.refused.empty() && each.is_beyond_errors()) text += text_of(each);
   return text;
 }
 
@@ -319,11 +336,13 @@ std::string times_text(const TimesSpent& times) {
     if (seconds > 0) text += (text.empty() ? "" : ", ") + core::format_duration(seconds) + " " + what;
   };
   add(times.solving, "for the solution that some start from");
-  add(times.comparing.measuring, "measuring (the table's column)");
+  add(times.comparing.measuring, times.solving > 0
+                                     ? "measuring (the table's column has the solution's in each kind, too)"
+                                     : "measuring (the table's column)");
   add(times.comparing.on_common_paths, "once more on the paths that pairs have in common");
   add(times.comparing.replications, "in replications (--replications)");
   add(times.pictures, "for pictures (--spp, --no-pictures)");
-  return "took " + core::format_duration(times.elapsed) + "; processors " + text + "\n";
+  return "took " + core::format_duration(times.elapsed) + (text.empty() ? "" : "; processors " + text) + "\n";
 }
 
 results::Record comparison_record(const scene::Scene& scene, const std::vector<Compared>& all,

@@ -18,7 +18,6 @@
 #include "results/checkpoint.h"
 #include "results/csv.h"
 #include "results/factors.h"
-#include "solvers/shooting.h"
 
 namespace interflect::apps {
 namespace {
@@ -76,6 +75,7 @@ class Shooting {
 
   results::Record record() const {
     const fem::ErrorSummary error = fem::summarise_error(solved_.solution, solved_.scene);
+    const fem::ErrorShares shares = error_shares();
     results::Record record;
     return record.add("version", core::build_info().version)
         .add("command", common_.command_line)
@@ -92,8 +92,8 @@ class Shooting {
         .add("mean_irradiance", error.mean_irradiance)
         .add("mean_irradiance_error", error.mean_error)
         .add("relative_error_l2", error.relative_l2)
-        .add("relative_error_l2_of_elements", error_shares().of_elements)
-        .add("relative_error_l2_of_unshot", error_shares().of_unshot)
+        .add("relative_error_l2_of_elements", shares.of_elements)
+        .add("relative_error_l2_of_unshot", shares.of_unshot)
         .add("relative_noise_l2", error.relative_noise_l2)
         .add("seconds", seconds())
         .add("warnings", solved_.warnings)
@@ -126,27 +126,8 @@ class Shooting {
     return emit.size();
   }
 
-  /// Of the bound that is stated, L2 over that of irradiance: the ambient term, which any element may have none of, and
-  /// the rest.
-  struct ErrorShares {
-    double of_unshot = 0, of_elements = 0;
-  };
-  ErrorShares error_shares() const {
-    const fem::RadiositySolution& s = solved_.solution;
-    const Eigen::RowVectorXd ambient = solvers::ambient(progressive_.system(), shots_.state.residual);
-    Spectrum unshot;
-    for (int c = 0; c < static_cast<int>(ambient.size()); ++c) unshot[c] = std::abs(ambient(c));
-    const double missing = solved_.scene.weigh(unshot);
-    double ambients = 0, rests = 0, squares = 0;
-    for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
-      const double A = s.mesh.patches()[i].area, H = solved_.scene.weigh(s.irradiance[i]),
-                   rest = solved_.scene.weigh(s.irradiance_error[i]) - missing;
-      ambients += A * missing * missing;
-      rests += A * rest * rest;
-      squares += A * H * H;
-    }
-    if (squares == 0) return {};
-    return {std::sqrt(ambients / squares), std::sqrt(rests / squares)};
+  fem::ErrorShares error_shares() const {
+    return fem::shares_of_error(solved_.solution, solved_.scene, progressive_.missing(shots_));
   }
 
   /// What the stated error is of: without a matrix it is wide, and an early picture is far nearer than it says.

@@ -79,15 +79,21 @@ struct Traced {
   std::uint64_t samples;  ///< a pixel
   double error, dark;     ///< of pixels, as Rendering has them: relative, and the share of those without light
   double target;          ///< of that; 0: none
-  bool independent;       ///< samples: errors fall as their number's root grows
+  bool met_target;
+  bool by_noise;  ///< alone they err, and independently: errors fall as the root of the number of samples grows
   std::filesystem::path exr, png;
   bool stopped;                           ///< before all was done
   std::filesystem::path checkpoint = {};  ///< to go on from; empty where this run leaves none
   std::filesystem::path estimates = {};   ///< their folder; empty where none were written
   SamplesTold of_picture = {}, of_estimates = {};
 
-  bool missed_target() const { return target > 0 && !(error <= target); }
+  bool missed_target() const { return target > 0 && !met_target; }
 };
+
+bool errs_by_noise(const TraceOptions& options) {
+  const montecarlo::IntegratorEntry& entry = montecarlo::integrator_entry(options.integrator);
+  return options.sequence == "independent" && !entry.by_quadrature && !entry.inherits_error;
+}
 
 /// Writes them, if they were asked for and a stop leaves time for any.
 void add_estimates(const scene::Scene& scene, const TraceOptions& options, const FirstPass& first, Run& run,
@@ -135,17 +141,23 @@ void print_text(const SamplesTold& told) {
                 static_cast<unsigned long long>(told.not_finite));
 }
 
+/// "12 %", "130 %".
 std::string error_text(double relative) {
-  return std::isfinite(relative) ? core::format("%.2g %%", core::rounded_up(100 * relative, 2)) : "not known";
+  if (!std::isfinite(relative)) return "not known";
+  const double percents = core::rounded_up(100 * relative, 2);
+  return core::format(percents < 10 ? "%.2g %%" : "%.0f %%", percents);
 }
 
-/// Of a target that all samples asked for did not reach.
+/// Of a target that all samples asked for did not reach: why, and how many would at the least, where that can be told.
+/// More find light in pixels that have none yet, which are noisy then.
 void tell_of_missed_target(const Traced& t) {
   std::string text = core::format("--target %s was not met: pixels' standard errors are %s after %llu samples a pixel",
                                   core::format_percent(t.target).c_str(), error_text(t.error).c_str(),
                                   static_cast<unsigned long long>(t.samples));
-  if (t.independent && std::isfinite(t.error))
-    text += core::format(", --spp %.0f or so would do",
+  if (!t.of_picture.rare.empty())
+    text += ", and do not know of all light: " + t.of_picture.rare;
+  else if (t.by_noise && std::isfinite(t.error))
+    text += core::format(", at least --spp %.0f would be needed",
                          core::rounded_up(static_cast<double>(t.samples) * std::pow(t.error / t.target, 2), 2));
   core::log::shortfall(text);
 }
@@ -153,8 +165,11 @@ void tell_of_missed_target(const Traced& t) {
 void print_text(const Traced& t) {
   std::printf("%s, %llu samples a pixel: %s and %s\n", t.camera.c_str(), static_cast<unsigned long long>(t.samples),
               t.exr.c_str(), t.png.c_str());
-  std::printf("pixels' standard errors are %s (root mean square)%s\n", error_text(t.error).c_str(),
-              t.dark > 0 ? (", but of " + core::format_percent(t.dark) + " that found no light").c_str() : "");
+  if (t.dark < 1)
+    std::printf("standard errors of pixels: %s (root mean square)%s\n", error_text(t.error).c_str(),
+                t.dark > 0 ? (" of the " + core::format_percent(1 - t.dark) + " that found light").c_str() : "");
+  else
+    std::printf("no pixel found light\n");
   print_text(t.of_picture);
   if (!t.estimates.empty())
     std::printf("estimates: %s and %s\n", (t.estimates / "surfaces.csv").c_str(),
@@ -173,7 +188,8 @@ void add(const SamplesTold& told, const std::string& of, results::Record& record
 results::Record record_of(const Traced& t) {
   results::Record record;
   record.add("camera", t.camera).add("samples", t.samples).add("relative_error", t.error).add("dark", t.dark);
-  record.add("target_met", !t.missed_target()).add("exr", t.exr.string()).add("png", t.png.string());
+  if (t.target > 0) record.add("target", t.target).add("target_met", t.met_target);
+  record.add("exr", t.exr.string()).add("png", t.png.string());
   add(t.of_picture, "pixels_", record);
   if (!t.estimates.empty()) {
     record.add("estimates", t.estimates.string());
@@ -203,7 +219,8 @@ ExitStatus trace(const TraceOptions& options, const CommonOptions& common, Run& 
                 .error = rendering.relative_error,
                 .dark = rendering.dark,
                 .target = options.target,
-                .independent = options.sequence == "independent",
+                .met_target = rendering.met_target,
+                .by_noise = errs_by_noise(options),
                 .exr = options.image,
                 .png = options.image,
                 .stopped = !rendering.complete};

@@ -19,7 +19,7 @@ class Progress {
   explicit Progress(Style style = Style::quiet) : style_(style) {}
   /// Of a part of the work that `whole` tells of: its name, "path: pixels", stands before those of its stages.
   Progress(const Progress& whole, const std::string& part)
-      : style_(whole.style_), expected_end_(whole.expected_end_), part_(part + ", ") {}
+      : style_(whole.style_), expected_end_(whole.expected_end_), part_(whole.part_ + part + ", ") {}
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 

@@ -27,4 +27,18 @@ ErrorSummary summarise_error(const RadiositySolution& solution, const scene::Sce
           std::sqrt(noises / squares)};
 }
 
+ErrorShares shares_of_error(const RadiositySolution& solution, const scene::Scene& scene, const Spectrum& missing) {
+  const double unshot = scene.weigh(missing);
+  double area = 0, rests = 0, squares = 0;
+  for (std::size_t i = 0; i < solution.irradiance.size(); ++i) {
+    const double a = solution.mesh.patches()[i].area, h = scene.weigh(solution.irradiance[i]),
+                 rest = scene.weigh(solution.irradiance_error[i]) - unshot;
+    area += a;
+    rests += a * rest * rest;
+    squares += a * h * h;
+  }
+  if (squares == 0) return {};
+  return {unshot * std::sqrt(area / squares), std::sqrt(rests / squares)};
+}
+
 }  // namespace interflect::fem

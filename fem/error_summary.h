@@ -13,6 +13,13 @@ struct ErrorSummary {
   double relative_noise_l2 = 0;  ///< the same of the standard errors of sampled visibility
 };
 
+/// Of the bounds of a solution that is not at its end, L2 as relative_l2: what is missing anyhow, and the rest.
+struct ErrorShares {
+  double of_unshot = 0, of_elements = 0;
+};
+/// @param missing  on irradiance, in all elements [W/m² | lx]
+ErrorShares shares_of_error(const RadiositySolution& solution, const scene::Scene& scene, const Spectrum& missing);
+
 ErrorSummary summarise_error(const RadiositySolution& solution, const scene::Scene& scene);
 
 }  // namespace interflect::fem

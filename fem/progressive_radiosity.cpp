@@ -142,6 +142,13 @@ solvers::SolverReport ProgressiveRadiosity::advance(Shots& shots, const std::fun
   return report;
 }
 
+Spectrum ProgressiveRadiosity::missing(const Shots& shots) const {
+  const Eigen::RowVectorXd ambient = solvers::ambient(system_, shots.state.residual);
+  Spectrum missing;
+  for (int c = 0; c < static_cast<int>(ambient.size()); ++c) missing[c] = std::abs(ambient(c));
+  return missing;
+}
+
 RadiositySolution ProgressiveRadiosity::shown(const Shots& shots, const solvers::SolverReport& report) const {
   RadiositySolution s(mesh_, element_size_);
   s.exitance = materials_.exitance;
@@ -149,13 +156,11 @@ RadiositySolution ProgressiveRadiosity::shown(const Shots& shots, const solvers:
   s.radiosity = to_spectra(solvers::for_display(system_, shots.state));
   const Eigen::RowVectorXd ambient = solvers::ambient(system_, shots.state.residual);
   s.irradiance = to_spectra(shots.irradiance.rowwise() + ambient);
-  Spectrum missing;
-  for (int c = 0; c < static_cast<int>(ambient.size()); ++c) missing[c] = std::abs(ambient(c));
   const Spectrum later = later_bounces(s);
   const std::vector<Spectrum> bound = to_spectra(shots.bound), variance = to_spectra(shots.variance);
   s.shared_noise = later * noise_of_mean(mesh_, variance);
   for (const Spectrum& own : variance) s.irradiance_noise.push_back(sqrt(own + s.shared_noise * s.shared_noise));
-  estimate_errors_alone(s, bound, missing);
+  estimate_errors_alone(s, bound, missing(shots));
   s.coarse_radiosity = means_of_fours(mesh_, s.radiosity);
   s.solver = report;
   s.pairs = K_.counts();

@@ -51,6 +51,8 @@ class ProgressiveRadiosity {
   /// Its noise is that of the form factors, and at most sqrt(2) rho / (1 - rho) times that of the mean in all elements
   /// alike, as if no two shared a pair (error_estimate.h).
   RadiositySolution shown(const Shots& shots, const solvers::SolverReport& report) const;
+  /// |Amb|, as it is in the errors of `shown` [W/m² | lx].
+  Spectrum missing(const Shots& shots) const;
 
  private:
   void take(Shots& shots, solvers::ColumnMatrix& shot_before) const;

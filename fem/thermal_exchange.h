@@ -35,7 +35,7 @@ struct ThermalExchange {
   double emitted = 0;                  ///< sum q A over the surfaces, net [W]: what goes to the environment
   double to_environment = 0;           ///< the same found from what leaves through openings, and onto black backs [W]
   double emitted_error = 0;            ///< of the sum, by those of the surfaces: estimated, 95 % [W]
-  double to_environment_error = 0;     ///< of what rays found of it, 95 % [W]; not of the radiosity that they carry
+  double to_environment_error = 0;     ///< of what rays found of it, 95 %, at most [W]; not of the radiosity they carry
   scene::Scene problem;                ///< what `solution` solves: see solve_exchange
   RadiositySolution solution;
 };

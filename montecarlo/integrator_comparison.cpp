@@ -90,19 +90,17 @@ class Comparing {
 
   /// What one finds of these paths: what it has, if in this scene they are those that it was asked for, by itself or
   /// for another pair.
-  /// @param report  is added to, of what it was asked for pairs
+  /// @param report  is added to, of what it was asked now
   const Answers& of(std::size_t k, const measure::PathClasses& paths, SampleReport& report) {
     const std::size_t n = at(k, paths);
-    if (n == answers_[k].size()) {
-      const core::ProcessorTime timed(made_.times.on_common_paths);
-      const std::string& name = made_.trials[k].integrator;
-      answers_[k].push_back(answers(name, paths, name + ": " + comparison_.what + " on common paths"));
-    }
-    const Answers& found = answers_[k][n];
+    if (n < answers_[k].size()) return answers_[k][n];
+    const core::ProcessorTime timed(made_.times.on_common_paths);
+    const std::string& name = made_.trials[k].integrator;
+    answers_[k].push_back(answers(name, paths, name + ": " + comparison_.what + " on common paths"));
     std::vector<std::size_t> all(asked_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    if (n > 0) report.add(found.report, all);
-    return found;
+    report.add(answers_[k].back().report, all);
+    return answers_[k].back();
   }
 
   void replicate(IntegratorPair& pair) {

@@ -42,7 +42,7 @@ struct IntegratorPair {
   std::size_t a, b;
   measure::PathClasses common;
   std::vector<Estimate> of_a, of_b;
-  SampleReport report = {};  ///< of runs on these paths alone
+  SampleReport report = {};  ///< of runs on these paths alone that were made for it, and for no pair before
   /// The same by small runs of other seeds, which have as many samples as these all together: [replication].  None
   /// where none were asked for, or what one is wrong by is not of its seeds, or the run was stopped before.
   std::vector<std::vector<Estimate>> again_a = {}, again_b = {};

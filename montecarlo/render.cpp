@@ -59,7 +59,10 @@ Film empty_film(const scene::Scene& scene, std::size_t pixels, const RenderSetti
   return {pixels, scene.channel_count(), batches_of(settings), integrator.by_quadrature || integrator.inherits_error};
 }
 
-bool is_dark(const Estimate& pixel) { return pixel.value.is_zero() && pixel.claim != Claim::none; }
+/// Nothing was found that weighs.
+bool is_dark(const scene::Scene& scene, const Estimate& pixel) {
+  return scene.weigh(pixel.value) == 0 && pixel.claim != Claim::none;
+}
 
 /// Noise, and as much more as makes of 95 % of it what covers a bound too.
 template <class T>
@@ -100,13 +103,15 @@ class Painter {
     for (std::uint64_t done = film_.fewest_samples(); done < settings_.samples && !good_enough && !stopped();) {
       const std::uint64_t look = next_look(done);
       done = exposure_->pass(film_, done, look, stage, after_some);
-      good_enough = settings_.target > 0 && done == look && relative_error() <= settings_.target;
+      good_enough = done == look && meets_target();
     }
+    if (film_.fewest_samples() >= settings_.samples) good_enough = meets_target();  // gone on with, with no more to do
     const bool short_of_target = settings_.target > 0 && !good_enough;
     if (checkpoints_.keep && (stopped() || short_of_target || checkpoints_.at_end)) keep();
     if (film_.fewest_samples() == 0) throw core::Interrupted("rendering " + camera_.name);
     Rendering picture = developed();
     picture.relative_error = relative_error();
+    picture.met_target = good_enough;
     // Not by the stop flag, which may be raised after the last sample.
     picture.complete = good_enough || picture.samples >= settings_.samples;
     return picture;
@@ -124,6 +129,12 @@ class Painter {
     return std::min(look, settings_.samples);
   }
 
+  /// Errors tell nothing of light that samples may not have met: a picture in which hardly any met it would be the best.
+  bool meets_target() const {
+    return settings_.target > 0 && relative_error() <= settings_.target &&
+           exposure_->may_lack(film_.fewest_samples()).empty();
+  }
+
   /// Of pixels that have found light; those that have not, as where the background is black, tell no noise: the rule of
   /// three, which falls as 1 / n, would be all of the error, and no number of samples enough.
   double relative_error() const {
@@ -134,7 +145,7 @@ class Painter {
       if (!in_sight(p)) continue;
       const Estimate pixel = film_.estimate(p, largest);
       const double error = error_of(weighed_standard_error(scene_, pixel), scene_.weigh(pixel.error_bound));
-      if (is_dark(pixel)) {
+      if (is_dark(scene_, pixel)) {
         of_dark = std::max(of_dark, error);
       } else {
         values.push_back(scene_.weigh(pixel.value));
@@ -172,7 +183,7 @@ class Painter {
         if (!in_sight(p)) continue;
         const Estimate pixel = film_.estimate(p, largest);
         picture.report.add(p, film_.tally(p));
-        if (is_dark(pixel)) picture.dark += 1 / static_cast<double>(film_.pixels());
+        if (is_dark(scene_, pixel)) picture.dark += 1 / static_cast<double>(film_.pixels());
         const Spectrum error = error_of(pixel.standard_error, pixel.error_bound);
         for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
           picture.radiance.at(x, y, c) = static_cast<float>(pixel.value[c]);

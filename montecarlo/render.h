@@ -23,11 +23,12 @@ struct Rendering {
   core::Image samples_a_pixel;  ///< one channel, "samples"
   std::uint64_t samples = 0;    ///< that every pixel has; more in some, if the run was stopped within a pass
   SampleReport report = {};     ///< of measurement y * width + x each
-  /// Standard errors (with what they hold of bounds) over the radiance, both weighed, or over a tenth of the picture's
-  /// mean where that is more: root mean square over the pixels whose samples found light.  Infinite where any error is.
+  /// Standard errors (with what they hold of bounds) over the radiance, both weighed, or over a tenth of the mean where
+  /// that is more: root mean square and mean over the pixels whose samples found light.  Infinite where any error is.
   double relative_error = 0;
-  double dark = 0;        ///< share of pixels whose samples found none: their errors are limits of what may be there
-  bool complete = false;  ///< no stop came before it had all samples, or met its target
+  double dark = 0;          ///< share of pixels whose samples found none: their errors are limits of what may be there
+  bool met_target = false;  ///< there was one, relative_error is no more, and no light is told of that may be lacked
+  bool complete = false;    ///< no stop came before it had all samples, or met its target
 };
 
 struct RenderSettings {
@@ -36,7 +37,7 @@ struct RenderSettings {
   std::string sequence = "independent";
   measure::PathClasses paths = measure::PathClasses::all();  ///< that count
   std::string integrator = "path";                           ///< see known_integrators
-  /// Above 0: it ends earlier where Rendering::relative_error is no more than that.
+  /// Above 0: of Rendering::relative_error; it ends earlier where that is met.
   double target = 0;
   measure::SurfaceSolution solution = {};  ///< of integrators that need one
 

@@ -12,7 +12,7 @@ namespace interflect::results {
 
 namespace {
 
-constexpr int block = 6;               // pixels of a side
+constexpr int block = BlocksApart::side;
 constexpr double standard_errors = 3;  // up to which a block stays white
 
 /// A picture's means over blocks: its weighted value, or, of a picture of independent standard errors, that of the
@@ -73,8 +73,18 @@ Blocks differences(const scene::Scene& scene, const core::Image& fem, const core
   return differences;
 }
 
-BlocksApart apart(const Blocks& differences) {
-  BlocksApart apart{differences.mean.size()};
+/// Where both are dark, or nothing is known of an error, nothing can differ.
+std::size_t blocks_that_may_differ(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
+                                   const Blocks& error) {
+  const Blocks a = block_means(scene, fem), b = block_means(scene, traced);
+  std::size_t blocks = 0;
+  for (std::size_t k = 0; k < error.mean.size(); ++k)
+    blocks += a.mean[k] + b.mean[k] > 0 && error.mean[k] > 0 && std::isfinite(error.mean[k]);
+  return blocks;
+}
+
+BlocksApart apart(const Blocks& differences, std::size_t blocks) {
+  BlocksApart apart{blocks};
   for (const double difference : differences.mean) apart.brighter += difference > 0, apart.darker += difference < 0;
   return apart;
 }
@@ -92,11 +102,10 @@ core::Image difference_panel(const core::Image& fem, const Blocks& differences, 
 
 }  // namespace
 
-/// The least number that a binomial one, of a normal error beyond three standard errors each, is above with a
-/// probability of no more than 1 %.
+/// The least number that a binomial one is above with a probability of no more than `level`.
 std::size_t BlocksApart::by_chance() const {
-  constexpr double level = 0.01;
-  const double p = std::erfc(standard_errors / std::sqrt(2.0)), n = static_cast<double>(blocks);
+  constexpr double level = 0.005, allowance = 2;
+  const double p = allowance * 0.5 * std::erfc(standard_errors / std::sqrt(2.0)), n = static_cast<double>(blocks);
   double below = 0;
   for (std::size_t count = 0; count < blocks; ++count) {
     const auto k = static_cast<double>(count);
@@ -105,6 +114,12 @@ std::size_t BlocksApart::by_chance() const {
     if (below >= 1 - level) return count;
   }
   return blocks;
+}
+
+/// Of the one that is brighter in places, those may be single samples of rare light, beside which all else is black.
+static double shared_white(const core::Image& left, const core::Image& right) {
+  const double a = white_of(left), b = white_of(right);
+  return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
 }
 
 ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image& fem, const core::Image& traced,
@@ -121,11 +136,10 @@ ComparisonPanels comparison_panels(const scene::Scene& scene, const core::Image&
     for (std::size_t k = 0; k < error.mean.size(); ++k) error.mean[k] = std::hypot(error.mean[k], shared.mean[k]);
   }
   const core::Image left = as_rgb(scene, fem), right = as_rgb(scene, traced);
-  // Of the one that is brighter in places, those may be single samples of rare light, beside which all else is black.
-  const ToneMapping tone{.white = std::min(white_of(left), white_of(right))};
+  const ToneMapping tone{.white = shared_white(left, right)};
   const Blocks apart_by = differences(scene, fem, traced, error);
   return {tone_mapped(left, tone), tone_mapped(right, tone), difference_panel(fem, apart_by, full_scale),
-          apart(apart_by)};
+          apart(apart_by, blocks_that_may_differ(scene, fem, traced, error))};
 }
 
 }  // namespace interflect::results

@@ -9,15 +9,17 @@ namespace interflect::results {
 
 /// How many blocks of a difference are beyond three standard errors, and whether stated errors explain that.
 ///
-/// Of a normal error one block in 370 is: more than `by_chance` of them with a probability of 1 %, where each block
-/// errs by itself.  More say that the stated errors do not know all: methods differ, or light that is met rarely has
-/// not been met by the samples that errors are made of.
+/// A normal error is that to one side in one block of 740, and as errors are themselves estimated, of few and skewed
+/// samples, twice as often is allowed for.  To either side there are more than `by_chance` then with a probability of
+/// .5 %, where each block errs by itself.  More say that the stated errors do not know all: methods differ, or light
+/// that is met rarely has not been met by the samples that errors are made of.
 struct BlocksApart {
-  std::size_t blocks = 0, brighter = 0, darker = 0;  ///< brighter: the first picture is
+  static constexpr int side = 6;         ///< pixels
+  std::size_t blocks = 0;                ///< that have light, and an error that is known
+  std::size_t brighter = 0, darker = 0;  ///< brighter: the first picture is
 
-  std::size_t beyond() const { return brighter + darker; }
   std::size_t by_chance() const;
-  bool is_explained() const { return beyond() <= by_chance(); }
+  bool is_explained() const { return brighter <= by_chance() && darker <= by_chance(); }
 };
 
 /// One view as two methods see it, for display: [0, 1] sRGB, channels R, G, B.

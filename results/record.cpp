@@ -65,6 +65,8 @@ Record& Record::add(std::string key, const Spectrum& value, int channels) {
   return add(std::move(key), Numbers(value.data(), value.data() + channels));
 }
 
+Record& Record::add_nothing(std::string key) { return add_value(std::move(key), std::monostate{}); }
+
 Record& Record::section(std::string key) {
   add(std::move(key), Record());
   return std::get<Record>(entries_.back().value);

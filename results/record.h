@@ -32,14 +32,11 @@ class Record {
   Record& add(std::string key, List value);
   /// Counts, ids and seeds: all integers as they are, whatever their size and sign.
   template <class Integer>
-  requires std::is_integral_v<Integer> Record& add(const std::string& key, Integer value) {
-    using Widest = std::conditional_t<std::is_signed_v<Integer>, std::int64_t, std::uint64_t>;
-    return add_value(key, static_cast<Widest>(value));
-  }
+  requires std::is_integral_v<Integer> Record& add(const std::string& key, Integer value);
   /// The first `channels` numbers of a spectrum.
   Record& add(std::string key, const Spectrum& value, int channels);
   /// There is no such value, null.
-  Record& add_nothing(std::string key) { return add_value(std::move(key), std::monostate{}); }
+  Record& add_nothing(std::string key);
   /// An empty section, to be filled through the reference.
   Record& section(std::string key);
 
@@ -55,6 +52,13 @@ struct Record::Entry {
   std::string key;
   Value value;
 };
+
+// A value may be a record: only here, where entries are known, can one be made.
+template <class Integer>
+requires std::is_integral_v<Integer> Record& Record::add(const std::string& key, Integer value) {
+  using Widest = std::conditional_t<std::is_signed_v<Integer>, std::int64_t, std::uint64_t>;
+  return add_value(key, static_cast<Widest>(value));
+}
 
 /// JSON text, UTF-8, indented by two.  JSON knows no infinity and no NaN: they become null, and a list "not_finite" at
 /// the end of the text says which they were ("/energy/residual/0: inf").  Numbers read back as the same bits.

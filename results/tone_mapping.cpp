@@ -37,8 +37,7 @@ double white_of(const core::Image& image) {
     const auto pixel = std::span(image.data).subspan(at, image.channels.size());
     brightest.push_back(*std::max_element(pixel.begin(), pixel.end()));
   }
-  const double white = weighted_quantile(brightest, {}, 0.99);
-  return white > 0 ? white : 1.0;
+  return std::max(0.0, weighted_quantile(brightest, {}, 0.99));
 }
 
 double srgb_encoded(double linear) {
@@ -48,7 +47,7 @@ double srgb_encoded(double linear) {
 }
 
 core::Image tone_mapped(const core::Image& image, const ToneMapping& tone) {
-  const double white = tone.white > 0 ? tone.white : white_of(image);
+  const double bright = tone.white > 0 ? tone.white : white_of(image), white = bright > 0 ? bright : 1;
   core::Image out = image;
   std::transform(image.data.begin(), image.data.end(), out.data.begin(),
                  [white](float v) { return static_cast<float>(srgb_encoded(v / white)); });

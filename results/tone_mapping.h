@@ -15,7 +15,7 @@ struct ToneMapping {
 /// A picture of any number of channels as linear R, G, B, for looking (Scene::rgb).
 core::Image as_rgb(const scene::Scene& scene, const core::Image& radiance);
 
-/// The 99th percentile of the pixels' largest channels; 1 for a picture without light.  Pixels that are not finite are
+/// The 99th percentile of the pixels' largest channels; 0 where that is dark.  Pixels that are not finite are
 /// left out.
 double white_of(const core::Image& image);
 

@@ -97,12 +97,12 @@ TEST(Compare, says_which_pictures_lack_light_that_their_errors_do_not_know) {
                  "size": [96, 96] } ]
 })");
   const Outcome outcome = interflect({"compare", scene, "--integrators", "path,bidirectional", "--target", "40%",
-                                      "--replications", "0", "--spp", "4", "-o", folder / "out"});
+                                      "--replications", "0", "--spp", "16", "-o", folder / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "all agree on what was measured; pictures are not judged")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "path.png: light of lamp by way of mirrors")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "compared_bidirectional_path.png: of 256 blocks bidirectional is brighter in "))
-      << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "compared_bidirectional_path.png: of ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, " blocks bidirectional is brighter in ")) << outcome.out;
   const json said = json::parse(read_file(folder / "out/compare.json"));
   EXPECT_TRUE(said.at("drawn").at(0).contains("rare_light"));
   EXPECT_FALSE(said.at("drawn").at(1).contains("rare_light"));  // walks from the lamp find it

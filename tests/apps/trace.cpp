@@ -75,7 +75,7 @@ TEST(Trace, shows_one_group_of_lights_alone) {
   EXPECT_TRUE(contains(unknown.err, "light group 'sun'") && contains(unknown.err, "ceiling, bulb")) << unknown.err;
 }
 
-// Standard errors fall as the root of the number of samples, so that one guess should do; and not silently.
+// Standard errors fall as the root of the number of samples; pixels that find their first light then add to them.
 TEST(Trace, tells_of_a_target_that_its_samples_do_not_meet) {
   const TemporaryFolder folder;
   const auto trace = [&](const char* samples) {
@@ -92,10 +92,43 @@ TEST(Trace, tells_of_a_target_that_its_samples_do_not_meet) {
   const double wanted = std::stod(missed.err.substr(guess + 6));
   EXPECT_NEAR(wanted, 32 * std::pow(error / .15, 2), .1 * wanted);
   EXPECT_TRUE(std::filesystem::exists(folder / "p.checkpoint.h5"));  // to go on from
+  const double then = json::parse(trace(core::format("%.0f", wanted).c_str()).out).at("relative_error");
+  EXPECT_GT(then, .8 * .15);
+  EXPECT_LT(then, 1.2 * .15);
   const Outcome met = trace(core::format("%.0f", 2 * wanted).c_str());
   EXPECT_EQ(met.status, 0) << met.err;
   EXPECT_FALSE(contains(met.err, "--target")) << met.err;
   EXPECT_LE(json::parse(met.out).at("relative_error"), .15);
+  EXPECT_TRUE(json::parse(met.out).at("target_met"));
+}
+
+// A floor that is lit through glass alone, by a lamp that paths hardly meet, and a display that is seen as it is: pixels
+// that found light are good, and most found none.
+TEST(Trace, meets_no_target_where_light_is_missing) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.json", R"({
+    "format": "interflect/scene/1", "units": "m", "quantity": "photometric",
+    "materials": {
+      "white": { "reflectance": 0.8 }, "display": { "reflectance": 0, "exitance": 100 },
+      "lamp": { "reflectance": 0, "flux": 5000 }, "glass": { "type": "dielectric", "index": 1.5 }
+    },
+    "geometry": [
+      { "name": "floor", "material": "white", "polygon": [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]] },
+      { "name": "display", "material": "display", "polygon": [[4.01, 0, 0], [4.4, 0, 0], [4.4, 0.4, 0], [4.01, 0.4, 0]] },
+      { "name": "lamp", "material": "lamp", "polygon": [[2, 2, 1], [2, 2.004, 1], [2.004, 2.004, 1], [2.004, 2, 1]] },
+      { "name": "bulb", "material": "glass", "box": { "min": [1.9, 1.9, 0.9], "max": [2.1, 2.1, 1.1] } }
+    ],
+    "cameras": [
+      { "name": "c", "eye": [2.2, 2, 6], "target": [2.2, 2.001, 0], "fov_y_deg": 45, "size": [64, 64] }
+    ]
+  })");
+  const Outcome outcome =
+      interflect({"trace", scene, "--spp", "64", "--target", "15%", "-o", folder / "p.exr", "--json"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  const json said = json::parse(outcome.out);
+  EXPECT_GT(said.at("dark"), .5);
+  EXPECT_FALSE(said.at("target_met"));
+  EXPECT_TRUE(contains(outcome.err, "and do not know of all light: light of lamp")) << outcome.err;
 }
 
 // Of all integrators, in good scenes: none.
