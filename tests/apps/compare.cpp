@@ -113,6 +113,18 @@ TEST(Compare, says_which_pictures_lack_light_that_their_errors_do_not_know) {
   EXPECT_LE(differs.at("blocks_darker"), differs.at("blocks_by_chance")) << differs;
 }
 
+TEST(Compare, says_where_a_quadrature_came_to_its_end) {
+  const TemporaryFolder folder;
+  const auto compare = [&](const char* target) {
+    return interflect({"compare", shipped_scene("cube"), "--integrators", "whitted", "--paths", "LE", "--target",
+                       target, "--no-pictures", "--replications", "0", "-o", folder / "out"});
+  };
+  const Outcome far = compare("0.001%"), near = compare("20%");
+  EXPECT_TRUE(contains(far.out, "took all the points that its quadrature may have, and may miss --target 0.001 %"))
+      << far.out;
+  EXPECT_FALSE(contains(near.out, "took all the points")) << near.out;
+}
+
 // What the table says is what measuring took, and the rest is told beside it.
 TEST(Compare, says_what_its_time_went_to) {
   const TemporaryFolder folder;
