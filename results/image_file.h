@@ -19,6 +19,9 @@ core::Image read_exr(const std::filesystem::path& file);
 /// Radiance's RGBE pictures (.hdr, .pic): channels R, G, B, with 8 bits and a common exponent.
 /// @throws core::InputError  naming the file
 core::Image read_hdr(const std::filesystem::path& file);
+/// Channels R, G, B of a PNG for display: [0, 1], encoded as they are there.
+/// @throws core::InputError  naming the file
+core::Image read_png(const std::filesystem::path& file);
 /// A picture of radiance: .exr, .hdr or .pic.
 /// @throws core::InputError  for another extension, or if the file cannot be read
 core::Image read_radiance(const std::filesystem::path& file);

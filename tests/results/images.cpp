@@ -93,6 +93,18 @@ TEST(Images, tone_mapping_shows_the_99th_percentile_as_white) {
   EXPECT_NEAR(tone_mapped(image, {.white = 1000}).at(99, 0, 1), 0.735357, 1e-6);  // sRGB of 0.5
 }
 
+TEST(Images, png_reads_back_byte_by_byte) {
+  const test::TemporaryFolder folder;
+  core::Image image(16, 16, {"R", "G", "B"});
+  for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<float>(i % 256) / 255;
+  write_png(folder / "a.png", image);
+  const core::Image read = read_png(folder / "a.png");
+  ASSERT_EQ(read.data.size(), image.data.size());
+  for (std::size_t i = 0; i < image.data.size(); ++i) EXPECT_FLOAT_EQ(read.data[i], image.data[i]) << i;
+  EXPECT_THROW(read_png(folder / "none.png"), core::InputError);
+  EXPECT_THROW(read_png(folder.write("text.png", "no picture")), core::InputError);
+}
+
 TEST(Images, tone_mapping_survives_darkness_and_what_is_no_number) {
   EXPECT_EQ(tone_mapped(core::Image(3, 3, {"Y"})).at(1, 1, 0), 0.0F);
   core::Image image = gradient(10, 10, {"Y"});
