@@ -9,12 +9,16 @@
 namespace interflect::solvers {
 namespace {
 
-constexpr Index tiles_a_piece =
-    12;  // on average, at the last row, at least: to add up the lanes takes half a tile's time
+/// On average, at the last row, at least: to add up the lanes takes half a tile's time.
+constexpr Index tiles_a_piece = 12;
 constexpr Index most_pieces = 64;
-constexpr Index same_pieces = 8;  // rows of tiles: where pieces change, threads wait for each other
+constexpr Index same_pieces = 2;  // rows of tiles: where pieces change, threads take over what others have at hand
+/// As many take a thread about as long as the new values of a strip, by columns; more than three take both longer.
+constexpr Index tiles_to_renew[] = {0, 2, 4, 6};
 constexpr Index strips_a_row = tile_size / part_rows;
 static_assert(strips_a_row % 2 == 0);  // so that a strip and the next one have sums of their own
+
+constexpr auto nobody = [] {};  // to wait for
 
 Index padded(Index n, Index to) { return (n + to - 1) / to * to; }
 
@@ -56,7 +60,8 @@ void TileSweeps::back() {
 void TileSweeps::send_all() {
   sent_.setZero();
   team_.work([&](unsigned member) {
-    for (Index s = 0; s < strips(); ++s) work_on(pass_of(strip(s, true), strips(), {true, up_}), member, team_.size());
+    for (Index s = 0; s < strips(); ++s)
+      work_on(pass_of(strip(s, true), strips(), {true, up_}), member, team_.size(), nobody);
   });
   up_ = sent_;
 }
@@ -93,7 +98,7 @@ void TileSweeps::sweep_all(const Way& way) {
 double TileSweeps::sweep_by(unsigned member, const Way& way, Steps& steps) {
   const Index members = std::ssize(steps.passed), all = strips(), ahead = members > 1 ? 1 : 0;
   double waited = 0;
-  work_on(pass_of({}, 0, way), member, members);
+  work_on(pass_of({}, 0, way), member, members, nobody);
   steps.passed[member].raise_to(1);
   for (Index s = 0; s < all + ahead; ++s) {
     if (member == 0 && s < all) {
@@ -102,17 +107,18 @@ double TileSweeps::sweep_by(unsigned member, const Way& way, Steps& steps) {
       steps.renewed.raise_to(s + 1);
     }
     waited += steps.renewed.wait_for(std::min(all, s + 1 - ahead));
-    if (pieces(strip(s, way.ascending)).tiles != pieces(strip(s + 1, way.ascending)).tiles)
-      waited += steps.wait_for_all(s + 1);  // columns get other members
-    work_on(pass_of(strip(s - ahead, way.ascending), s + 1, way), member, members);
+    work_on(pass_of(strip(s - ahead, way.ascending), s + 1, way), member, members,
+            [&] { waited += steps.wait_for_all(s + 1); });
     steps.passed[member].raise_to(s + 2);
   }
   return waited;
 }
 
-/// How sums over a strip's columns are cut; where nothing is received, how what is sent is.
+/// How sums over a strip's columns are cut; where nothing is received, how what is sent is.  As if there were more of
+/// them, so that the last pieces, member 0's, leave it the time for new values.
 TileSweeps::Pieces TileSweeps::pieces(const OneStrip& receiver) const {
-  return {padded(receiver ? receiver->I : tile_rows(), same_pieces), pieces_};
+  const Index tiles = receiver ? receiver->I : tile_rows();
+  return {padded(tiles + tiles_to_renew[std::min<Index>(columns(), 3)], same_pieces), pieces_};
 }
 
 /// One pass over what the next strip receives and another sends.
@@ -122,20 +128,25 @@ TileSweeps::Pass TileSweeps::pass_of(const OneStrip& sender, Index s, const Way&
           .receiver = receiver,
           .next = strip(s + 1, way.ascending),
           .sends = sender ? sender->I - (!way.ascending && has_near(*sender) ? 1 : 0) : 0,
-          .receives = receiver ? receiver->I - (way.ascending && has_near(*receiver) ? 1 : 0) : 0};
+          .receives = receiver ? receiver->I - (way.ascending && has_near(*receiver) ? 1 : 0) : 0,
+          .cut = pieces(receiver),
+          .cut_before = pieces(s > 0 ? strip(s - 1, way.ascending) : receiver)};
 }
 
 /// A member's columns of a pass.  The last ones are member 0's, as behind them lies the tile on the diagonal, which it
-/// needs; where pieces cannot be shared out evenly it has fewer, as it makes new values too.
-void TileSweeps::work_on(const Pass& pass, Index member, Index members) {
+/// needs; where pieces cannot be shared out evenly it has fewer, as it makes new values too.  Before it takes over
+/// columns that were another's in the pass before, it waits for the end of that.
+template <class Wait>
+void TileSweeps::work_on(const Pass& pass, Index member, Index members, const Wait& wait_for_others) {
   const Index place = members - 1 - member;
   const auto begin_of = [&](Index p) { return (pieces_ * p + members - 1) / members; };
   const Index first = begin_of(place), end = begin_of(place + 1);
-  const Pieces cut = pieces(pass.receiver);
+  const Index had_from = pass.cut_before.begin(first), had_to = member == 0 ? tile_rows() : pass.cut_before.begin(end);
   double* lanes = lanes_.data() + member * columns() * tile_size * tile_lanes;
   for (Index piece = first; piece < end; ++piece) {
-    const Index from = cut.begin(piece);
-    const Index to = piece + 1 < pieces_ ? cut.begin(piece + 1) : std::max(pass.receives, pass.sends);
+    const Index from = pass.cut.begin(piece);
+    const Index to = piece + 1 < pieces_ ? pass.cut.begin(piece + 1) : std::max(pass.receives, pass.sends);
+    if (from < had_from || to > had_to) wait_for_others();
     const Index received = std::clamp(pass.receives, from, std::max(from, to));
     const Index sent = std::clamp(pass.sends, from, std::max(from, to)), both = std::min(received, sent);
     const double* after = nullptr;

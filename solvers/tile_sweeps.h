@@ -45,19 +45,20 @@ class TileSweeps final : public Sweeps {
     bool ascending;
     ConstColumns from_after;
   };
+  /// Sums over a row are cut, so that members have some pieces each, in a way that does not depend on their number.
+  struct Pieces {
+    Index tiles, pieces;
+    Index begin(Index piece) const { return tiles * piece / pieces; }
+  };
   struct Pass {
     OneStrip sender, receiver, next;
-    Index sends, receives;  ///< tiles, from the first column on
+    Index sends, receives;   ///< tiles, from the first column on
+    Pieces cut, cut_before;  ///< of what is received; in the pass before
   };
   struct Products {
     Index begin, end;  ///< tiles
     OneStrip receiver, sender;
     const double* after;  ///< what is received next, if it does not lie behind
-  };
-  /// Sums over a row are cut, so that members have some pieces each, in a way that does not depend on their number.
-  struct Pieces {
-    Index tiles, pieces;
-    Index begin(Index piece) const { return tiles * piece / pieces; }
   };
 
   /// How far those have come who work on a sweep.
@@ -79,7 +80,8 @@ class TileSweeps final : public Sweeps {
   void sweep_all(const Way& way);
   double sweep_by(unsigned member, const Way& way, Steps& steps);
   void renew(const Strip& strip, const OneStrip& before, const Way& way);
-  void work_on(const Pass& pass, Index member, Index members);
+  template <class Wait>
+  void work_on(const Pass& pass, Index member, Index members, const Wait& wait_for_others);
   void add(const Products& products, double* lanes);
   void put_sums(const Strip& strip, Index piece, double* lanes);
 
