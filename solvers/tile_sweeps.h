@@ -22,11 +22,11 @@ namespace interflect::solvers {
 /// What is missing from row a after a sweep there (`Sweeps::residual`) is then up_a less what it was before.
 ///
 /// A strip, a few rows, at a time, so that it stays in the second-level cache: one pass sends what one strip has and
-/// receives what another gets.  Threads have columns of their own, the same for many strips.  One of them makes the new
-/// values, a strip ahead of the passes, so that none waits for another: the passes that go on beside it neither need nor
-/// give what passes between a strip and the one after it.  Within a row of tiles its tile on the diagonal tells that; of
-/// two strips in different rows of tiles the thread that makes the new values sees to the tile between them, the
-/// `near` one.
+/// receives what another gets.  Threads have columns of their own, the same for some strips.  One of them makes the new
+/// values, a strip ahead of the passes, so that none waits for another, and has fewer columns for it.  The passes that
+/// go on beside it neither need nor give what passes between a strip and the one after it.  Within a row of tiles its
+/// tile on the diagonal tells that; of two strips in different rows of tiles the thread that makes the new values sees
+/// to the tile between them, the `near` one.
 class TileSweeps final : public Sweeps {
  public:
   TileSweeps(const System& system, const TileAccess& tiles, double relaxation, const ColumnMatrix& start,
