@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "core/ordered_sum.h"
 #include "fem/closure_law.h"
 
 namespace interflect::fem {
@@ -143,8 +144,8 @@ double relative_change(const SymmetricOperator& K, const ClosureLaw& law, const 
     to(p.a, 0) += both * d * d;
     to(p.a, 1) += both * p.K * p.K;
   });
-  const double whole = squares.col(1).sum();
-  return whole > 0 ? std::sqrt(squares.col(0).sum() / whole) : 0.0;
+  const double whole = core::ordered_sum(squares.col(1));
+  return whole > 0 ? std::sqrt(core::ordered_sum(squares.col(0)) / whole) : 0.0;
 }
 
 double largest(std::span<const double> values) {

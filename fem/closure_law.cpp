@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ordered_sum.h"
+
 namespace interflect::fem {
 namespace {
 
@@ -21,7 +23,7 @@ EntryVariances entry_variances(const SymmetricOperator& K, std::span<const doubl
     to(p.a, 0) += variances(p);  // any row will do: their sum is asked for
     to(p.a, 1) += p.K;
   });
-  const double w = sums.col(0).sum(), all = sums.col(1).sum();
+  const double w = core::ordered_sum(sums.col(0)), all = core::ordered_sum(sums.col(1));
   if (w > 0 && all > 0) variances.kappa = w / all;
   return variances;
 }

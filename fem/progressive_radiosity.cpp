@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/ordered_sum.h"
 #include "fem/columns.h"
 #include "fem/error_estimate.h"
 #include "fem/radiosity_operator.h"
@@ -106,7 +107,7 @@ void ProgressiveRadiosity::take(Shots& shots, ColumnMatrix& shot_before) const {
   const double own = K_.gram()[static_cast<std::size_t>(column.of)];
   const Eigen::Map<const Eigen::ArrayXd> K(column.K.data(), mesh_.size()),
       e(column.standard_error.data(), mesh_.size());
-  require_row_sum(scene_, mesh_.patches(), static_cast<std::size_t>(column.of), K.sum() / own,
+  require_row_sum(scene_, mesh_.patches(), static_cast<std::size_t>(column.of), core::ordered_sum(K) / own,
                   std::sqrt(e.square().sum()) / own);
   const Eigen::RowVectorXd x = shots.state.x.row(column.of), before = shot_before.row(column.of);
   shot_before.row(column.of) = x;

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/log.h"
+#include "core/ordered_sum.h"
 #include "fem/arriving_by_rays.h"
 #include "fem/columns.h"
 #include "fem/element_materials.h"
@@ -107,7 +108,7 @@ class Sampling {
       const auto known = noise.col(c).array() > 0;
       noise.col(c) = known.select(noise.col(c).array(), of_a_ray / G).matrix();
       const Eigen::ArrayXd reflecting = G * rho_.col(c).array();
-      const double alone = (reflecting * noise.col(c).array()).square().sum(), all = reflecting.sum(),
+      const double alone = (reflecting * noise.col(c).array()).square().sum(), all = core::ordered_sum(reflecting),
                    together = state.power_error(c) * state.power_error(c);
       const double shared = std::sqrt(std::max(0.0, (together - alone) / (all * all - reflecting.square().sum())));
       s.shared_noise[static_cast<int>(c)] = std::isfinite(shared) ? shared : 0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Same scene, settings and seed: the same bits for any number of threads.  Compares the tables of solve, and pictures and
-# tables of trace by every integrator of the catalogue.
+# Same scene, settings and seed: the same bits for any number of threads.  Compares the tables of solve, also by rays and
+# by shooting in a scene of many elements, and pictures and tables of trace by every integrator of the catalogue.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 interflect=${INTERFLECT:-build/release/bin/interflect}
@@ -42,6 +42,16 @@ for threads in 1 2 3 8; do
   for file in surfaces.csv sensors.csv solution.vtu validation.vtu trace.exr; do
     cmp "$work/1/$file" "$out/$file"
   done
+  for solver in gauss-seidel stochastic-ray shooting-collision shooting-and-gathering; do
+    "$interflect" solve data/scenes/office.json --solver "$solver" --steps 2 -o "$out/$solver" --no-pictures \
+      --threads "$threads" --quiet >/dev/null || [ $? -eq 1 ]
+    cmp "$work/1/$solver/solution.vtu" "$out/$solver/solution.vtu"
+  done
+  for overshoot in 0 0.5; do
+    "$interflect" shoot data/scenes/office.json --overshoot "$overshoot" --unshot 45% -o "$out/shoot-$overshoot" \
+      --no-pictures --threads "$threads" --quiet >/dev/null
+    cmp "$work/1/shoot-$overshoot/solution.vtu" "$out/shoot-$overshoot/solution.vtu"
+  done
   for integrator in $integrators; do
     part=0
     for paths in $(paths_of "$integrator"); do
@@ -56,4 +66,4 @@ for threads in 1 2 3 8; do
     done
   done
 done
-echo "the same bits for 1, 2, 3 and 8 threads, by" $integrators
+echo "the same bits for 1, 2, 3 and 8 threads, by radiosity and by" $integrators

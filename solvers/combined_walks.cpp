@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ordered_sum.h"
 #include "core/random.h"
 #include "solvers/potential.h"
 #include "solvers/power_transfer.h"
@@ -202,7 +203,7 @@ SolverReport CombinedWalks::advance(const System& system, SolverState& state, co
     sum = static_cast<double>(end) * of_one.mean(end);
     return draws + (r == 0 && begin == 0 ? pilot.draws() : 0);
   };
-  const double starts = 1 + plan.gathered.sum();
+  const double starts = 1 + core::ordered_sum(plan.gathered);
   const auto first = static_cast<std::uint64_t>(std::max(16.0, std::ceil(256 / starts)));
   return sample_in_rounds(system, state, rule, settings_, {first, static_cast<std::uint64_t>(std::ceil(starts)), add},
                           run);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "core/ordered_sum.h"
 #include "core/random.h"
 #include "solvers/transition_sampler.h"
 
@@ -18,9 +19,10 @@ double weighted_median(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) 
   std::vector<Index> order(static_cast<std::size_t>(x.size()));
   std::iota(order.begin(), order.end(), Index{0});
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return x(a) < x(b); });
+  const double all = core::ordered_sum(weight);
   double below = 0;
   for (const Index a : order)
-    if ((below += weight(a)) >= .5 * weight.sum()) return x(a);
+    if ((below += weight(a)) >= .5 * all) return x(a);
   return x(order.back());
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/ordered_sum.h"
+
 namespace interflect::solvers {
 
 PowerDraw::PowerDraw(const ColumnMatrix& power)
@@ -54,7 +56,8 @@ Eigen::RowVectorXd column_sizes(const ColumnMatrix& power) {
 ColumnMatrix half_by_area(const ColumnMatrix& power, std::span<const double> areas) {
   const Eigen::Map<const Eigen::VectorXd> G(areas.data(), power.rows());
   ColumnMatrix drawn = power.cwiseAbs();
-  for (Index c = 0; c < power.cols(); ++c) drawn.col(c) += drawn.col(c).sum() / G.sum() * G;
+  const double area = core::ordered_sum(G);
+  for (Index c = 0; c < power.cols(); ++c) drawn.col(c) += core::ordered_sum(drawn.col(c)) / area * G;
   return drawn;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/ordered_sum.h"
 #include "solvers/bounce.h"
 #include "solvers/iterations.h"
 #include "solvers/system_check.h"
@@ -188,7 +189,7 @@ double unshot_fraction(const System& system, ConstColumns unshot) {
 
 Eigen::RowVectorXd ambient(const System& system, ConstColumns unshot) {
   const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), unshot.rows());
-  const Eigen::RowVectorXd absorbing = G.sum() - (G * system.R.reflectance()).array();
+  const Eigen::RowVectorXd absorbing = core::ordered_sum(G) - (G * system.R.reflectance()).array();
   return (G * unshot).cwiseQuotient(absorbing);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/ordered_sum.h"
 #include "core/random.h"
 #include "solvers/power_transfer.h"
 #include "solvers/sampled_rounds.h"
@@ -14,7 +15,7 @@ namespace {
 /// 1 / (1 - mean rho), of the column that reflects most.
 double haste_of(const System& system) {
   const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), system.e.rows());
-  return 1 / std::max(.01, 1 - (G * system.R.reflectance()).maxCoeff() / G.sum());
+  return 1 / std::max(.01, 1 - (G * system.R.reflectance()).maxCoeff() / core::ordered_sum(G));
 }
 
 /// A replication under way.

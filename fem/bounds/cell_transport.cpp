@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ordered_sum.h"
 #include "fem/bounds/allotment.h"
 #include "scene/place.h"
 
@@ -65,7 +66,7 @@ std::vector<Exchange> exchanges(std::span<const PartSeen> parts) {
 
 /// How much a sum may be off or vary over a cell.
 double known(const SmoothSum& sum, double radius) {
-  return sum.doubt.sum() + radius * sum.derivatives.topRows<2>().colwise().norm().sum();
+  return core::ordered_sum(sum.doubt) + radius * sum.derivatives.topRows<2>().colwise().norm().sum();
 }
 
 class Examination {
@@ -127,7 +128,7 @@ class Examination {
     const std::size_t branch = out_.branches.size();
     out_.branches.push_back({cell, parent, exchanges(view.far())});
     Leaf leaf = leaf_of(view, cell, far);
-    const double doubt = (leaf.mean.upper - leaf.mean.lower).sum() / 2 - far.of_b.doubt.sum();
+    const double doubt = (leaf.mean.upper - leaf.mean.lower).sum() / 2 - core::ordered_sum(far.of_b.doubt);
     if (view.near().empty() || (doubt <= tolerance_ && leaf.left <= left_enough) || depth == deepest_) {
       leaf.branch = branch;
       leaf.near = exchanges(view.near());

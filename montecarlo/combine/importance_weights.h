@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "core/ordered_sum.h"
 #include "core/vec.h"
 
 /// Several techniques draw samples of one integral int f [Veach, Guibas 1995]: what each sample counts.
@@ -38,7 +39,7 @@ class OptimalWeights {
   void solve();
 
   const Eigen::VectorXd& alpha() const { return alpha_; }
-  double constant() const { return alpha_.sum(); }
+  double constant() const { return core::ordered_sum(alpha_); }
   /// What a sample adds to `constant`.
   double score(double f, std::span<const double> p) const;
 
