@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -233,7 +234,8 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
                    example_scene),
       compare_solvers, options, chosen);
   add_scene(*command, options->scene);
-  add_folder(*command, options->out, "the table and the plots");
+  add_folder(*command, options->out,
+             "the table and the plots: error against sweeps, against rays of those that sample, and against time");
   command
       ->add_option("--solvers", options->solvers,
                    "Which ones; default: all but `automatic`, which is one of them, and without --goal those for one "
@@ -241,7 +243,8 @@ void add_compare_solvers(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember(solvers::solver_names()));
   command
       ->add_option("--goal", options->goal,
-                   "One number that is asked for: a sensor, a surface, or camera:NAME; errors are of it then")
+                   "One number that is asked for: a sensor, a surface, or camera:NAME; errors are of it then, and what "
+                   "each solver makes it is told")
       ->check(named("a sensor, a surface or a camera"));
   add_equations(*command, options->settings);
 }
@@ -277,6 +280,12 @@ void add_shoot(CLI::App& app, Command& chosen) {
   command->add_option("--every", options->every, "Shots after which there is a picture and a .vtu; 0: at the end alone")
       ->check(whole(0, 1 << 30))
       ->capture_default_str();
+  command
+      ->add_option("--shots", options->shots,
+                   "Shots, those before --resume included, after which it stops in any case: as many as the record of "
+                   "a run says that was stopped give its result again")
+      ->check(whole(1, std::numeric_limits<int>::max()))
+      ->default_str("as many as it takes");
   command->add_flag("--resume", options->resume, "Go on from the checkpoint that an earlier run left in the folder");
   add_shooting(*command, options->settings);
   add_no_pictures(*command, options->pictures);

@@ -48,8 +48,6 @@ std::string part_text(double error, double value) {
   return value > 0 ? core::format("%.2g %%", core::rounded_up(100 * error / value, 2)) : "-";
 }
 
-bool in_view(const fem::Goal& goal) { return std::holds_alternative<fem::Goal::InView>(goal.what); }
-
 }  // namespace
 
 fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::span<const measure::SensorPoint> points) {
@@ -69,6 +67,11 @@ fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::sp
   throw core::InputError("--goal " + name, "one of " + names_known(scene) + " expected");
 }
 
+GoalQuantity quantity_of(const fem::Goal& goal, const scene::Scene& scene) {
+  const bool pixels = std::holds_alternative<fem::Goal::InView>(goal.what);
+  return {(pixels ? "L_avg(" : "E_avg(") + goal.name + ")", pixels ? scene.radiance_unit() : scene.irradiance_unit()};
+}
+
 std::string goal_line(const std::string& quantity, double value, double error, const char* unit,
                       std::optional<double> proved) {
   const auto [text, bound] = told(value, proved.value_or(error));
@@ -79,9 +82,7 @@ std::string goal_line(const std::string& quantity, double value, double error, c
 }
 
 std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene) {
-  const bool pixels = in_view(adaptation.goal);
-  const char* unit = pixels ? scene.radiance_unit() : scene.irradiance_unit();
-  const std::string quantity = (pixels ? "L_avg(" : "E_avg(") + adaptation.goal.name + ")";
+  const auto [quantity, unit] = quantity_of(adaptation.goal, scene);
   Table table({"pass", "elements", "unknowns", quantity, "error", "relative", "time"});
   for (std::size_t k = 0; k < adaptation.passes.size(); ++k) {
     const fem::AdaptivePass& pass = adaptation.passes[k];

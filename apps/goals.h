@@ -16,6 +16,13 @@ namespace interflect::apps {
 /// @throws core::InputError  with the names known
 fem::Goal goal_named(const std::string& name, const scene::Scene& scene, std::span<const measure::SensorPoint> points);
 
+/// What a goal is called: "E_avg(desk)" in lx, or "L_avg(camera:front)" in cd/m2.
+struct GoalQuantity {
+  std::string name;
+  const char* unit;
+};
+GoalQuantity quantity_of(const fem::Goal& goal, const scene::Scene& scene);
+
 /// How elements came about, as a table, and the goal: "E_avg(desk) = 312.4 lx, error <= 0.8 lx (0.26 %, estimated)".
 std::string adaptation_text(const fem::Adaptation& adaptation, const scene::Scene& scene);
 results::Record adaptation_record(const fem::Adaptation& adaptation, const scene::Scene& scene);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -124,8 +125,9 @@ struct CompareSolversOptions {
 struct ShootOptions {
   std::filesystem::path scene, out;
   fem::RadiositySettings settings;
-  int every = 0;        ///< shots, after which there is a look; 0: at the end alone
-  bool resume = false;  ///< from the checkpoint of an earlier run
+  int every = 0;                                ///< shots, after which there is a look; 0: at the end alone
+  int shots = std::numeric_limits<int>::max();  ///< in all, after which it stops
+  bool resume = false;                          ///< from the checkpoint of an earlier run
   bool pictures = true;
 };
 

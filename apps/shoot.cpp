@@ -56,11 +56,14 @@ class Shooting {
   }
 
   void advance() {
-    report_ = progressive_.advance(shots_, [&](const fem::Shots& now) {
-      const bool due = options_.every > 0 && now.count() % options_.every == 0;
-      if (due) look();
-      if (due || core::seconds_since(saved_) > seconds_between_checkpoints) save();
-    });
+    report_ = progressive_.advance(
+        shots_,
+        [&](const fem::Shots& now) {
+          const bool due = options_.every > 0 && now.count() % options_.every == 0;
+          if (due) look();
+          if (due || core::seconds_since(saved_) > seconds_between_checkpoints) save();
+        },
+        options_.shots);
     show();
     save();
   }

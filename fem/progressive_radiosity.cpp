@@ -123,13 +123,15 @@ void ProgressiveRadiosity::take(Shots& shots, ColumnMatrix& shot_before) const {
   }
 }
 
-solvers::SolverReport ProgressiveRadiosity::advance(Shots& shots, const std::function<void(const Shots&)>& look) {
+solvers::SolverReport ProgressiveRadiosity::advance(Shots& shots, const std::function<void(const Shots&)>& look,
+                                                    int most) {
   solvers::StoppingRule rule = settings_.stopping;
-  rule.max_iterations = std::numeric_limits<int>::max();
+  rule.max_iterations = most - static_cast<int>(shots.count());
   solvers::SolverSettings one_by_one = settings_.solver_settings;
   one_by_one.steps = 1;
   if (rule.unshot > 0 && unshot_fraction(shots) <= rule.unshot)
     return {.why = solvers::SolverReport::Stopped::converged};
+  if (rule.max_iterations <= 0) return {.why = solvers::SolverReport::Stopped::iteration_limit};
   Approach approach(run_.progress, unshot_fraction(shots), rule.unshot > 0 ? rule.unshot : rule.tolerance);
   ColumnMatrix shot_before = shots.state.x;
   shots.state.observer = [&](const solvers::SolverState&, const solvers::SolverReport&) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "fem/element_materials.h"
@@ -38,8 +39,10 @@ class ProgressiveRadiosity {
   /// Goes on until the settings' StoppingRule is met: `unshot`, and `tolerance` on the residual; or until the run is
   /// asked to stop.
   /// @param look  at what there is, after every shot
+  /// @param most  shots in all, those of earlier calls included, after which it stops in any case
   /// @throws core::InputError  where a row adds up to more than it can (row_sum_check.h)
-  solvers::SolverReport advance(Shots& shots, const std::function<void(const Shots&)>& look);
+  solvers::SolverReport advance(Shots& shots, const std::function<void(const Shots&)>& look,
+                                int most = std::numeric_limits<int>::max());
   /// sum A |r| / sum A |e|, the largest of the channels.
   double unshot_fraction(const Shots& shots) const;
 

@@ -5,10 +5,12 @@
 
 #include "core/error.h"
 #include "core/seconds_since.h"
+#include "fem/columns.h"
 #include "fem/element_materials.h"
 #include "fem/node_radiosity.h"
 #include "fem/radiosity_operator.h"
 #include "fem/ray_transitions.h"
+#include "fem/row_sum_check.h"
 #include "fem/space/polynomials.h"
 #include "solvers/progressive.h"
 
@@ -28,6 +30,7 @@ class Equations {
     RadiositySettings of_blocks = settings;
     of_blocks.order = order_of_blocks(settings, mesh_.patches());
     from_ = assemble_operator(scene, mesh_.patches(), *rays_, of_blocks, run);
+    require_row_sums(scene, mesh_.patches(), from_.K->row_sums(run), *from_.K, run);
     const SymmetricOperator& K = from_.blocks ? *from_.blocks : *from_.K;
     const auto [exitance, reflectance] = materials_of(scene, mesh_.patches());
     const int channels = scene.channel_count();
@@ -87,17 +90,27 @@ double relative_error(const ColumnMatrix& x, const ColumnMatrix& y, std::span<co
   return size > 0 ? norm(x - y) / size : 0;
 }
 
-/// |J - J_h|, relative: of what solvers say of J that know of it, or of what their x makes it.
-double error_of_target(const solvers::System& system, const solvers::SolverState& now, const ColumnMatrix& solution) {
-  const Eigen::Map<const Eigen::RowVectorXd> t(system.target.data(), solution.rows());
-  const Eigen::RowVectorXd exact = t * solution;
-  const Eigen::RowVectorXd found = now.target.size() > 0 ? now.target : t * solvers::for_display(system, now);
-  return exact.norm() > 0 ? (found - exact).norm() / exact.norm() : 0;
+/// J = sum_a t_a b_a of every column.
+Eigen::RowVectorXd value_of_target(const solvers::System& system, const ColumnMatrix& b) {
+  return Eigen::Map<const Eigen::RowVectorXd>(system.target.data(), b.rows()) * b;
 }
 
-SolverScore score(const std::string& name, const solvers::System& system, const ColumnMatrix& solution,
-                  const RadiositySettings& settings, Run& run) {
-  SolverScore out{name, solvers::solver_named(name).samples(), {}, ""};
+/// What solvers say of J that know of it, or what their x makes it; and |J - J_h|, relative.
+void look_at_target(SolverScore::At& at, const solvers::System& system, const solvers::SolverState& now,
+                    const ColumnMatrix& solution) {
+  const Eigen::RowVectorXd exact = value_of_target(system, solution);
+  const Eigen::RowVectorXd found =
+      now.target.size() > 0 ? now.target : value_of_target(system, solvers::for_display(system, now));
+  at.error = exact.norm() > 0 ? (found - exact).norm() / exact.norm() : 0;
+  at.goal = to_spectrum(found);
+  at.goal_error = to_spectrum(now.target_error);
+}
+
+/// Nothing where the run was asked to stop before it had an iteration.
+std::optional<SolverScore> score(const std::string& name, const solvers::System& system, const ColumnMatrix& solution,
+                                 const RadiositySettings& settings, Run& run) {
+  if (run.stop.stop_requested()) return {};
+  SolverScore out{name, solvers::solver_named(name).samples(), {}, "", false};
   solvers::SolverSettings of_solver = settings.solver_settings;
   if (of_solver.steps == 0) of_solver.steps = static_cast<int>(std::max<Index>(1, system.e.rows() / 50));
   solvers::SolverState state{system.e};
@@ -105,18 +118,22 @@ SolverScore score(const std::string& name, const solvers::System& system, const 
   state.observer = [&](const solvers::SolverState& now, const solvers::SolverReport& report) {
     const auto start = std::chrono::steady_clock::now();
     const solvers::IterationRecord& last = report.history.back();
-    const double error = system.target.empty()
-                             ? relative_error(solvers::for_display(system, now), solution, system.K.gram())
-                             : error_of_target(system, now, solution);
-    out.history.push_back({last.rows, last.seconds - looking, error, last.residual});
+    SolverScore::At at{last.rows, last.seconds - looking, 0, last.residual};
+    if (system.target.empty())
+      at.error = relative_error(solvers::for_display(system, now), solution, system.K.gram());
+    else
+      look_at_target(at, system, now, solution);
+    out.history.push_back(at);
     looking += core::seconds_since(start);
   };
   try {
-    out.why = describe(solvers::make_solver(name, of_solver)->advance(system, state, settings.stopping, run).why);
+    const auto why = solvers::make_solver(name, of_solver)->advance(system, state, settings.stopping, run).why;
+    out.why = describe(why);
+    out.stopped = why == solvers::SolverReport::Stopped::asked_to;
   } catch (const core::InputError& error) {
     out.why = error.what();
   }
-  run.throw_if_stopped("comparing solvers");
+  if (out.stopped && out.history.empty()) return {};
   return out;
 }
 
@@ -131,13 +148,21 @@ SolverComparison compare_solvers(const scene::Scene& scene, const RadiositySetti
   solvers::SolverState solution{system.e};
   solvers::make_solver("automatic")->advance(system, solution, {1e-13, 200}, run);
   run.throw_if_stopped("comparing solvers");
-  SolverComparison out{equations.elements(), system.e.rows(), goal.has_value(), {}};
+  SolverComparison out{equations.elements(), system.e.rows(), goal.has_value(), {}, {}, {}};
+  if (goal) out.goal = to_spectrum(value_of_target(system, solution.x));
   core::Progress::Stage stage(run.progress, "solvers", names.size());
   for (const std::string& name : names) {
-    out.scores.push_back(score(name, system, solution.x, settings, run));
-    scored(out.scores.back());
+    if (std::optional<SolverScore> its = score(name, system, solution.x, settings, run)) {
+      out.scores.push_back(*std::move(its));
+      scored(out.scores.back());
+    } else {
+      out.left_out.push_back(name);
+    }
     stage.advance(1);
   }
+  const auto nothing_of = [](const SolverScore& each) { return each.history.empty(); };
+  if (out.stopped() && std::all_of(out.scores.begin(), out.scores.end(), nothing_of))
+    throw core::Interrupted("comparing solvers");
   return out;
 }
 

@@ -297,6 +297,13 @@ TEST(Interrupted, shooting_goes_on_where_it_was_stopped) {
   EXPECT_TRUE(std::filesystem::exists(folder / "parts/surfaces.csv"));
   const auto first = json_of(folder / "parts/summary.json"), whole = json_of(folder / "whole/summary.json");
   EXPECT_LT(first.at("shots"), whole.at("shots"));
+  // The record says the step: so many shots at once are what was kept, and so are some and then the rest of them.
+  const std::string shots = std::to_string(first.at("shots").get<int>());
+  EXPECT_EQ(shoot("again", {"--unshot", "4%", "--shots", shots}).status, 1);
+  EXPECT_EQ(field_of(folder / "again"), field_of(folder / "parts"));
+  EXPECT_EQ(shoot("in_two", {"--unshot", "4%", "--shots", "1"}).status, 1);
+  EXPECT_EQ(shoot("in_two", {"--unshot", "4%", "--shots", shots, "--resume"}).status, 1);
+  EXPECT_EQ(field_of(folder / "in_two"), field_of(folder / "parts"));
   const Outcome gone_on = shoot("parts", {"--unshot", "4%", "--resume", "--threads", "8"});
   EXPECT_EQ(gone_on.status, 0) << gone_on.err;
   EXPECT_EQ(json_of(folder / "parts/summary.json").at("shots"), whole.at("shots"));

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/format.h"
 #include "tests/apps/program.h"
 
 namespace interflect::test {
@@ -98,6 +102,75 @@ TEST(Solvers, are_compared_by_numbers_that_are_explained) {
                     one = compare({"--noise", "10%", "--goal", "floor", "--solvers", "jacobi", "adjoint"});
   EXPECT_TRUE(contains(all, "error: relative, L2 over the surfaces") && !contains(all, "rays")) << all;
   EXPECT_TRUE(contains(one, "error: relative, of 'floor'") && contains(one, "rays of those that sample")) << one;
+}
+
+// By iterations and by all who find it: in the table, in the JSON and in the CSV, beside what it is.
+TEST(Solvers, of_one_number_tell_it) {
+  const TemporaryFolder folder;
+  const auto compare = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "compare-solvers", shipped_scene("cube"), "--element-size", "0.3",     "--noise", "2%",          "--goal",
+        "ceiling",         "--solvers",           "jacobi",         "adjoint", "-o",      folder / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return interflect(arguments).out;
+  };
+  const std::string text = compare({});
+  const json said = json::parse(compare({"--json"}));
+  EXPECT_EQ(said.at("goal"), "ceiling");
+  EXPECT_EQ(said.at("stopped"), false);
+  const double exact = said.at("value_of_solution");
+  EXPECT_GT(exact, 0);
+  for (const json& each : said.at("solvers")) {
+    const double value = each.at("value"), error = each.at("error");
+    EXPECT_NEAR(std::abs(value - exact), error * exact, 1e-9 * exact) << each;
+    EXPECT_EQ(each.at("standard_error") > 0, each.at("solver") == "adjoint") << each;
+  }
+  EXPECT_TRUE(contains(text, "value: E_avg(ceiling) [W/m2] as the solver has it in the end")) << text;
+  EXPECT_TRUE(contains(text, "by the solution " + core::format("%.6g", exact))) << text;
+  EXPECT_TRUE(contains(text, " +- ")) << text;
+  EXPECT_TRUE(contains(read_file(folder / "out/solvers.csv"),
+                       ",residual_or_noise,value,standard_error,value_of_solution\njacobi,1,"));
+}
+
+// What there is of a comparison that was stopped is written; what is missing is said in one line, even to those that
+// want no others.
+TEST(Solvers, that_were_compared_are_kept_when_time_is_over) {
+  const TemporaryFolder folder;
+  const Outcome stopped = interflect({"compare-solvers", shipped_scene("cube"), "--element-size", "0.3", "--noise",
+                                      "0.0001%", "--max-time", "3s", "--quiet", "--json", "-o", folder / "out",
+                                      "--solvers", "jacobi", "shooting-collision", "stochastic-jacobi", "southwell"});
+  EXPECT_EQ(stopped.status, 1) << stopped.err;
+  EXPECT_TRUE(contains(stopped.err,
+                       "stopped: shooting-collision is kept as far as it came; left out: "
+                       "stochastic-jacobi, southwell\n"))
+      << stopped.err;
+  EXPECT_EQ(std::count(stopped.err.begin(), stopped.err.end(), '\n'), 1) << stopped.err;
+  const json said = json::parse(stopped.out);
+  EXPECT_EQ(said.at("stopped"), true);
+  EXPECT_EQ(said.at("left_out"), (json{"stochastic-jacobi", "southwell"}));
+  ASSERT_EQ(said.at("solvers").size(), 2u);
+  EXPECT_EQ(said.at("solvers").at(0).at("stopped"), "converged");
+  EXPECT_EQ(said.at("solvers").at(1).at("stopped"), "asked to stop");
+  EXPECT_TRUE(contains(read_file(folder / "out/solvers.csv"), "\nshooting-collision,2,"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/solvers_rays.png"));
+}
+
+// Rays have a picture where there are any, and an earlier one does not stay where there are none.
+TEST(Solvers, that_sample_have_a_picture_of_rays) {
+  const TemporaryFolder folder;
+  const auto pictures = [&](const std::vector<std::string>& solvers) {
+    std::vector<std::string> arguments{
+        "compare-solvers", shipped_scene("cube"), "--element-size", "0.5", "-o", folder / "out", "--solvers"};
+    arguments.insert(arguments.end(), solvers.begin(), solvers.end());
+    EXPECT_EQ(interflect(arguments).status, 0);
+    std::string found;
+    for (const char* name : {"work", "rays", "time"})
+      if (std::filesystem::exists(folder / (std::string("out/solvers_") + name + ".png"))) found += name;
+    return found;
+  };
+  EXPECT_EQ(pictures({"jacobi", "shooting-collision"}), "workraystime");
+  EXPECT_EQ(pictures({"jacobi"}), "worktime");
+  EXPECT_EQ(pictures({"shooting-collision"}), "raystime");
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/error.h"
 #include "fem/radiosity.h"
+#include "fem/solver_comparison.h"
 #include "tests/fem/emitting_cube.h"
 #include "tests/fem/rooms.h"
 #include "tests/support/shapes.h"
@@ -47,14 +50,22 @@ TEST(Radiosity, refuses_rows_that_send_more_than_there_is) {
         for (std::size_t j = i + 1; j < patches.size(); ++j)
           sink.add(Index(i), Index(j), {factor * patches[i].area * patches[j].area / area, 0, 0});
     };
-    return solve_radiosity(scene, settings, run.get());
+    return settings;
   };
-  EXPECT_NO_THROW(scaled_by(1.05));
-  try {
-    scaled_by(1.3);
-    FAIL() << "1.25 leaves each element";
-  } catch (const core::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("no more than 1 can be"), std::string::npos) << error.what();
+  const std::vector<std::string> jacobi{"jacobi"};
+  const std::function<void(const RadiositySettings&)> commands[] = {
+      [&](const RadiositySettings& asked) { solve_radiosity(scene, asked, run.get()); },
+      [&](const RadiositySettings& asked) {
+        compare_solvers(scene, asked, jacobi, {}, run.get(), [](const SolverScore&) {});
+      }};
+  for (const auto& command : commands) {
+    EXPECT_NO_THROW(command(scaled_by(1.05)));
+    try {
+      command(scaled_by(1.3));
+      ADD_FAILURE() << "1.25 leaves each element";
+    } catch (const core::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("no more than 1 can be"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "core/error.h"
+#include "core/student_t.h"
 #include "fem/radiosity_operator.h"
 #include "measure/sensor_points.h"
 #include "scene/reader.h"
 #include "tests/fem/rooms.h"
+#include "tests/support/family.h"
 
 namespace interflect::fem {
 namespace {
@@ -119,6 +123,116 @@ TEST(SolverComparison, of_a_goal_has_all_arrive_at_one_number) {
       }
       EXPECT_GE(asked, order == 0 ? std::ssize(solvers::solver_names()) - 1 : 10);
     }
+}
+
+// A furnace has H = E / (1 - rho) everywhere: so has the solution, and each solver within what it says of it.
+TEST(SolverComparison, of_a_goal_has_its_value_by_each) {
+  constexpr double rho = .5, exitance = 3, H = exitance / (1 - rho);
+  Room room;
+  room.box({0, 0, 0}, {2, 1, 1}, 1, true, rho, exitance);
+  const scene::Scene scene = room.finish();
+  RadiositySettings settings;
+  settings.form_factors = "analytic";
+  settings.element_size = .6;
+  settings.quadrature_tolerance = 1e-11;  // of touching elements: their row sums are to be 1
+  settings.stopping.noise = .03;
+  core::LocalRun run(3, 2);
+  const Goal wall{"wall", Goal::OnSurface{scene.surface_ids().front(), scene::Side::front}};
+  const SolverComparison all =
+      compare_solvers(scene, settings, solvers::solver_names(), wall, run.get(), [](const SolverScore&) {});
+  EXPECT_NEAR(all.goal[0], H, 1e-9 * H);
+  EXPECT_FALSE(all.stopped());
+  // Standard errors are by how replications differ: intervals are Student's.  Alpha is divided among all (Bonferroni).
+  const double each = interflect::test::alpha / static_cast<double>(all.scores.size());
+  const double t = core::student_t(1 - each, settings.solver_settings.replications - 1);
+  int sampled = 0;
+  for (const SolverScore& score : all.scores) {
+    ASSERT_EQ(score.why, "converged") << score.solver;
+    const SolverScore::At& last = score.history.back();
+    EXPECT_NEAR(last.error, std::abs(last.goal[0] - all.goal[0]) / all.goal[0], 1e-12) << score.solver;
+    if (!score.samples) {
+      EXPECT_NEAR(last.goal[0], H, 1e-8 * H) << score.solver;
+      EXPECT_EQ(last.goal_error, Spectrum::zero()) << score.solver;
+      continue;
+    }
+    EXPECT_LE(std::abs(last.goal[0] - H), t * last.goal_error[0] + 1e-9 * H) << score.solver;
+    EXPECT_NEAR(last.goal_error[0], last.residual * last.goal[0], 1e-9 * H) << score.solver;
+    ++sampled;
+  }
+  EXPECT_GE(sampled, 15);
+}
+
+/// A lamp below the ceiling, and walls that glow.
+scene::Scene lit_room() {
+  Room room;
+  room.box({0, 0, 0}, {2, 1, 1}, 1, true, .5, 1);
+  room.wall({.5, .3, .99}, {0, .4, 0}, {.4, 0, 0}, 1, 0, 1);
+  return room.finish();
+}
+
+/// A run of a test, which says when it is to stop.
+struct StoppableRun {
+  core::Threads threads{2};
+  core::Progress progress;
+  std::stop_source stop;
+  Run run{1, threads, progress, stop.get_token()};
+};
+
+/// Of solvers that sample without end, where they do, until the run is asked to stop.
+RadiositySettings without_end() {
+  RadiositySettings settings;
+  settings.form_factors = "analytic";
+  settings.element_size = .6;
+  settings.stopping.noise = 1e-7;
+  return settings;
+}
+
+// The one at work is kept with its iterations, each the same as without a stop; those after it are named.
+TEST(SolverComparison, that_is_stopped_keeps_what_there_is) {
+  const scene::Scene scene = lit_room();
+  StoppableRun run;
+  std::jthread later;
+  const std::string names[] = {"jacobi", "shooting-collision", "gmres", "southwell"};
+  const SolverComparison parts =
+      compare_solvers(scene, without_end(), names, std::nullopt, run.run, [&](const SolverScore& score) {
+        if (score.solver == "jacobi")
+          later = std::jthread([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(500));
+            run.stop.request_stop();
+          });
+      });
+  EXPECT_TRUE(parts.stopped());
+  ASSERT_EQ(parts.scores.size(), 2u);
+  EXPECT_EQ(parts.scores[0].why, "converged");
+  EXPECT_FALSE(parts.scores[0].stopped);
+  EXPECT_EQ(parts.scores[1].why, "asked to stop");
+  EXPECT_TRUE(parts.scores[1].stopped);
+  EXPECT_EQ(parts.left_out, (std::vector<std::string>{"gmres", "southwell"}));
+
+  RadiositySettings as_far = without_end();
+  as_far.stopping.max_iterations = static_cast<int>(parts.scores[1].history.size());
+  ASSERT_GE(as_far.stopping.max_iterations, 1);
+  core::LocalRun whole(1, 2);
+  const SolverComparison again = compare_solvers(scene, as_far, std::span(names).subspan(1, 1), std::nullopt,
+                                                 whole.get(), [](const SolverScore&) {});
+  EXPECT_EQ(again.scores[0].history.back().error, parts.scores[1].history.back().error);
+}
+
+// Those that refuse have reached nothing.
+TEST(SolverComparison, that_is_stopped_before_an_iteration_is_none) {
+  const scene::Scene scene = lit_room();
+  StoppableRun run;
+  RadiositySettings settings = without_end();
+  settings.projection = Projection::gauss_points;
+  const std::string names[] = {"conjugate-gradients", "jacobi"};
+  std::string why;
+  EXPECT_THROW(compare_solvers(scene, settings, names, std::nullopt, run.run,
+                               [&](const SolverScore& score) {
+                                 why = score.why;
+                                 run.stop.request_stop();
+                               }),
+               core::Interrupted);
+  EXPECT_NE(why.find("symmetric"), std::string::npos) << why;
 }
 
 // The mean on the work plane of the room without a lamp, for as many rays from the lamp: rays drawn for it leave a

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "solvers/bounce.h"
 #include "solvers/progressive.h"
 #include "solvers/southwell.h"
@@ -91,16 +92,103 @@ TEST(Shooting, takes_the_first_of_equal_ones) {
   }
 }
 
-// Many unknowns, a few of which can be seen at a time: more than one chunk, the same bits.
-TEST(Shooting, has_the_same_bits_for_any_number_of_threads) {
-  const Problem problem(4200, 1);
-  ColumnMatrix first;
+/// K_ab = G_a G_b (1 + s_a s_b) / (2 sum G), |s| <= 1, made row by row when asked for: rows at most G_a, and as many as
+/// one likes.  G and s repeat, so that unknowns are alike.
+class RepeatedOperator final : public TransportOperator, public RowAccess {
+ public:
+  RepeatedOperator(Index of_one, Index times)
+      : G_(Eigen::pow(10.0, random_columns(of_one, 1, -1, 1, 45).array()).matrix().replicate(times, 1)),
+        s_(random_columns(of_one, 1, -1, 1, 46).replicate(times, 1)),
+        self_(G_.cwiseAbs2().cwiseProduct((1 + s_.array().square()).matrix()) / (2 * G_.sum())),
+        layout_(Layout::uniform(of_one * times, 1)) {}
+
+  const Layout& layout() const override { return layout_; }
+  bool symmetric() const override { return true; }
+  void apply(ConstColumns b, Columns out, Run&) const override {
+    const Eigen::VectorXd t = G_.cwiseProduct(s_);
+    out = (G_ * (G_.transpose() * b) + t * (t.transpose() * b)) / (2 * G_.sum());
+  }
+  std::span<const double> gram() const override { return {G_.data(), static_cast<std::size_t>(G_.size())}; }
+  std::span<const double> self() const override { return {self_.data(), static_cast<std::size_t>(self_.size())}; }
+  const RowAccess* rows() const override { return this; }
+  void rows(Index first, Index count, Columns out) const override {
+    const double all = 2 * G_.sum();
+    for (Index k = 0; k < count; ++k) {
+      const double G = G_(first + k), s = s_(first + k);
+      out.row(k) =
+          ((G * G_.array()) * (1 + s * s_.array()) / all).matrix().transpose();  // the same as K_ba, to the bit
+    }
+  }
+  Index evaluated() const override { return 0; }
+
+ private:
+  Eigen::VectorXd G_, s_, self_;
+  Layout layout_;
+};
+
+/// Three chunks of unknowns (shooting.cpp), each of which is there three times, in two or three of them.
+struct LargeProblem {
+  static constexpr Index chunk = 4096, of_one = 3000, times = 3;
+  LargeProblem()
+      : K(of_one, times),
+        e(random_columns(of_one, 2, 0, 1, 47).replicate(times, 1)),
+        R(random_columns(of_one, 2, 0, .9, 48).replicate(times, 1)) {}
+  System system() const { return {K, R, e}; }
+  /// How many of a chunk have shot.
+  static Index moved(const ColumnMatrix& x, Index which) {
+    const Index first = which * chunk;
+    return (x.col(0).segment(first, std::min(chunk, x.rows() - first)).array() != 0).count();
+  }
+
+  RepeatedOperator K;
+  ColumnMatrix e;
+  Reflection R;
+};
+
+TEST(Shooting, takes_the_first_of_equal_ones_of_several_chunks) {
+  const LargeProblem problem;
   for (const unsigned threads : {1u, 2u, 8u}) {
     core::LocalRun run(1, threads);
     Shooting shooting = begin_shooting(problem.system(), "southwell", {problem.e}, run);
-    for (int step = 0; step < 60; ++step) shooting.relax(shooting.brightest());
-    if (first.size() == 0) first = shooting.x();
-    EXPECT_EQ(shooting.x(), first) << threads;
+    for (int step = 0; step < 60; ++step) {
+      ASSERT_EQ(shooting.brightest(), brightest(shooting.residual(), problem.K.gram())) << step;
+      shooting.relax(shooting.brightest());
+    }
+    for (const Index which : {0, 1, 2}) EXPECT_GT(LargeProblem::moved(shooting.x(), which), 0) << which;
+  }
+}
+
+// Of more unknowns than a thread takes at a time.
+TEST(Shooting, has_the_same_bits_for_any_number_of_threads) {
+  struct Kind {
+    const char* solver;
+    double overshoot;
+  };
+  const LargeProblem problem;
+  for (const Kind& kind :
+       {Kind{"southwell", 0}, Kind{"progressive", 0}, Kind{"progressive", .5}, Kind{"progressive", 1}}) {
+    SolverSettings settings;
+    settings.steps = 50;
+    settings.overshoot = kind.overshoot;
+    const auto solve = [&](unsigned threads) {
+      core::LocalRun run(1, threads);
+      SolverState state{problem.e};
+      const SolverReport report =
+          make_solver(kind.solver, settings)->advance(problem.system(), state, {.max_iterations = 3}, run);
+      return std::pair(state, report.history);
+    };
+    const std::string which = core::format("%s, overshoot %g", kind.solver, kind.overshoot);
+    const auto [one, history] = solve(1);
+    core::LocalRun run(1, 1);
+    const ColumnMatrix r = residual_of(problem.system(), one.x, run);
+    EXPECT_LE((one.residual - r).cwiseAbs().maxCoeff(), 1e-13 * one.x.cwiseAbs().maxCoeff()) << which;
+    for (const Index chunk : {0, 1, 2}) EXPECT_GT(LargeProblem::moved(one.x, chunk), 0) << which << ", chunk " << chunk;
+    for (const unsigned threads : {2u, 3u, 8u}) {
+      const auto [several, of_several] = solve(threads);
+      EXPECT_EQ(several.x, one.x) << which << ", threads " << threads;
+      EXPECT_EQ(several.residual, one.residual) << which << ", threads " << threads;
+      EXPECT_EQ(of_several, history) << which << ", threads " << threads;
+    }
   }
 }
 

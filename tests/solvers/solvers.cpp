@@ -252,6 +252,39 @@ TEST(GaussSeidel, says_in_one_line_that_it_needs_rows) {
   EXPECT_TRUE(solve("jacobi", {K, Reflection(0.5 * e), e}, x).converged());
 }
 
+// Products with K are all that some need.  The others say who they are, what they lack and who does without; whoever is
+// new is one or the other.  The tolerance as above.
+TEST(Solvers, do_without_rows_or_say_in_one_line_that_they_cannot) {
+  for (const bool symmetric : {true, false}) {
+    FullOperator K = random_operator(65, 38);
+    K.with_rows = false;
+    K.says_symmetric = symmetric;
+    ColumnMatrix rho = random_columns(65, 3, 0, 0.99, 39);
+    rho.col(0).setZero();
+    rho.col(1).setConstant(0.99);
+    const ColumnMatrix e = random_columns(65, 3, 0, 100, 40), exact = by_elimination(K, rho, e);
+    std::vector<std::string> cannot;
+    for (const std::string& name : solver_names(false)) {
+      ColumnMatrix x = e;
+      try {
+        EXPECT_TRUE(solve(name, {K, Reflection(rho), e}, x, {5e-15, 100000}).converged()) << name;
+        for (Index c = 0; c < 3; ++c)
+          EXPECT_LE((x - exact).col(c).cwiseAbs().maxCoeff(), 1e-12 * exact.col(c).maxCoeff()) << name << ' ' << c;
+      } catch (const core::InputError& error) {
+        const std::string what = error.what();
+        EXPECT_EQ(core::single_line(what), what);
+        EXPECT_NE(what.find("solver '" + name + "'"), std::string::npos) << what;
+        EXPECT_NE(what.find(name == "conjugate-gradients" ? "symmetric" : "rows"), std::string::npos) << what;
+        cannot.push_back(name);
+      }
+    }
+    std::vector<std::string> expected = {"gauss-seidel", "symmetric-gauss-seidel", "over-relaxation", "southwell",
+                                         "progressive"};
+    if (!symmetric) expected.insert(expected.begin(), "conjugate-gradients");
+    EXPECT_EQ(cannot, expected);
+  }
+}
+
 TEST(GaussSeidel, asks_for_a_product_a_sweep_only_where_K_is_not_symmetric) {
   FullOperator K = random_operator(66, 28);
   const ColumnMatrix rho = random_columns(66, 2, 0, 0.9, 29), e = random_columns(66, 2, 0, 1, 30);
