@@ -41,7 +41,8 @@ class Pilot {
 
   std::uint64_t draws() const { return draws_; }
 
-  WalkPlan plan() const {
+  /// @param most  that gather, for one that shoots
+  WalkPlan plan(double most) const {
     const Eigen::Map<const Eigen::VectorXd> G(system_.K.gram().data(), system_.e.rows());
     const ColumnMatrix& rho = system_.R.reflectance();
     const Eigen::RowVectorXd P = G.transpose() * system_.e;
@@ -51,7 +52,7 @@ class Pilot {
     subtract_squares(shooting);
     subtract_squares(gathering);
     const Eigen::RowVectorXd scale = G.transpose() * (system_.e + reflected_).cwiseAbs2();
-    return plan_walks(std::move(shooting), std::move(gathering), system_.K.gram(), scale);
+    return plan_walks(std::move(shooting), std::move(gathering), system_.K.gram(), scale, most);
   }
 
  private:
@@ -162,11 +163,17 @@ class Combined {
   ColumnMatrix shot_, gathered_;
 };
 
+/// For one that shoots: where the number of all is given, so many that there are some that shoot.
+double most_that_gather(const StoppingRule& rule, int replications) {
+  constexpr double most = 1e4, shooting = 16;
+  if (rule.samples == 0) return most;
+  return std::clamp(static_cast<double>(rule.samples) / (shooting * replications) - 1, 1.0, most);
+}
+
 }  // namespace
 
 WalkPlan plan_walks(ColumnMatrix shooting, ColumnMatrix gathering, std::span<const double> areas,
-                    const Eigen::RowVectorXd& scale) {
-  constexpr double most = 1e4;  // that gather, for one that shoots
+                    const Eigen::RowVectorXd& scale, double most) {
   const Eigen::Map<const Eigen::ArrayXd> G(areas.data(), shooting.rows());
   Eigen::ArrayXd of_shooting = Eigen::ArrayXd::Zero(shooting.rows()), of_gathering = of_shooting;
   for (Index c = 0; c < scale.size(); ++c) {
@@ -178,7 +185,7 @@ WalkPlan plan_walks(ColumnMatrix shooting, ColumnMatrix gathering, std::span<con
   while (high > low * (1 + 1e-9)) {
     const double middle = std::sqrt(low * high);
     const bool more = surplus(middle, of_shooting, of_gathering, G) > 0 ||
-                      gathered_at(middle, of_shooting, of_gathering, G).sum() > most;
+                      core::ordered_sum(gathered_at(middle, of_shooting, of_gathering, G)) > most;
     (more ? low : high) = middle;
   }
   Eigen::VectorXd gathered = Eigen::VectorXd::Zero(shooting.rows());
@@ -191,10 +198,11 @@ SolverReport CombinedWalks::advance(const System& system, SolverState& state, co
   require_walks(system, name());
   require_constants(system, name());
   require_solvable(system);
+  require_replications(settings_);
   if (!prepare(system, state)) return {.why = SolverReport::Stopped::nothing_to_do};
   const ElementWalks walks(system, ElementWalks::Score::collision);
   const Pilot pilot(system, settings_, run);
-  const WalkPlan plan = pilot.plan();
+  const WalkPlan plan = pilot.plan(most_that_gather(rule, settings_.replications));
   const WalkSequences numbers(settings_, core::derived_seed(run.seed, "random walks"), walks.first_numbers());
   std::vector<Combined> combined(static_cast<std::size_t>(settings_.replications), Combined(walks, plan));
   const auto add = [&](int r, std::uint64_t begin, std::uint64_t end, ColumnMatrix& sum, const RoundStop& stop) {

@@ -8,23 +8,32 @@
 
 #include "core/error.h"
 #include "solvers/replications.h"
+#include "solvers/system_check.h"
 
 namespace interflect::solvers {
 namespace {
 
-/// sqrt(sum G error²) / sqrt(sum G b²) of what is reflected, the largest of the columns that have any.
-double relative_noise(const System& system, const ColumnMatrix& error, const ColumnMatrix& reflected) {
+/// Draws by which what is there is found: what is not may be nothing.
+constexpr double enough_to_find = 1 << 21;
+
+/// sqrt(sum G error²) / sqrt(sum G b²) of what is reflected, the largest of the columns; 1 of those that could have
+/// some, of which few draws have found none.
+double relative_noise(const System& system, const ColumnMatrix& error, const ColumnMatrix& reflected, double draws) {
   const Eigen::Map<const Eigen::RowVectorXd> G(system.K.gram().data(), error.rows());
   const Eigen::RowVectorXd squares = G * error.cwiseAbs2(), sizes = G * reflected.cwiseAbs2();
   double largest = 0;
   for (Index c = 0; c < sizes.size(); ++c)
-    if (sizes(c) > 0) largest = std::max(largest, std::sqrt(squares(c) / sizes(c)));
+    if (sizes(c) > 0)
+      largest = std::max(largest, std::sqrt(squares(c) / sizes(c)));
+    else if (draws < enough_to_find && !(system.e.col(c).array() == 0).all() &&
+             !(system.R.reflectance().col(c).array() == 0).all())
+      largest = std::max(largest, 1.0);
   return largest;
 }
 
-/// The same of what is asked for, which is set; 1 where it was not found at all by few samples.
-double target_noise(const System& system, SolverState& state, const Replications& replications, std::uint64_t done) {
-  constexpr std::uint64_t many = 1 << 16;
+/// The same of what is asked for, which is set.
+double target_noise(const System& system, SolverState& state, const Replications& replications, std::uint64_t done,
+                    double draws) {
   const Eigen::Map<const Eigen::RowVectorXd> t(system.target.data(), system.e.rows());
   std::tie(state.target, state.target_error) = replications.weighed(system.target, static_cast<double>(done));
   state.target += t * system.e;
@@ -33,7 +42,7 @@ double target_noise(const System& system, SolverState& state, const Replications
     const bool dark = (system.e.col(c).array() == 0).all() || (t.array() == 0).all();
     if (state.target_error(c) > 0 && state.target(c) != 0)
       largest = std::max(largest, state.target_error(c) / std::abs(state.target(c)));
-    else if (!dark && done < many)
+    else if (!dark && draws < enough_to_find)
       largest = 1;
   }
   return largest;
@@ -51,14 +60,14 @@ void nothing_yet(const System& system, SolverState& state) {
 
 SolverReport sample_in_rounds(const System& system, SolverState& state, const StoppingRule& rule,
                               const SolverSettings& settings, const SampledRounds& rounds, Run& run) {
-  if (settings.replications < 10)
-    throw core::InputError("solvers that sample", "10 replications or more expected: errors are by how they differ");
+  require_replications(settings);
   Replications replications(system.e.rows(), system.e.cols(), settings.replications);
   const std::uint64_t of_one = rounds.starts_a_sample * static_cast<std::uint64_t>(replications.count());
   const std::uint64_t most = rule.samples > 0 ? std::max<std::uint64_t>(1, rule.samples / of_one) : 0;
   Iterations iterations(state, rule, run);
   const RoundStop stop(iterations);
   std::uint64_t done = 0, next = rounds.first;
+  double drawn = 0;
   for (bool more = true; more; next = 2 * done) {
     if (most > 0) next = std::min(next, most);
     std::atomic<std::uint64_t> draws = 0;
@@ -79,8 +88,9 @@ SolverReport sample_in_rounds(const System& system, SolverState& state, const St
     state.power_error = replications.weighed(system.K.gram(), static_cast<double>(done)).second;
     for (const Index i : rounds.unanswered)
       state.standard_error.row(i).setConstant(std::numeric_limits<double>::infinity());
-    const double noise = system.target.empty() ? relative_noise(system, state.standard_error, x - system.e)
-                                               : target_noise(system, state, replications, done);
+    drawn += static_cast<double>(draws);
+    const double noise = system.target.empty() ? relative_noise(system, state.standard_error, x - system.e, drawn)
+                                               : target_noise(system, state, replications, done, drawn);
     more = iterations.next(x, {noise, static_cast<double>(draws), most > 0 ? done == most : noise <= rule.noise});
   }
   return iterations.report();

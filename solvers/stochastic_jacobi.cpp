@@ -70,6 +70,7 @@ SolverReport StochasticJacobi::advance(const System& system, SolverState& state,
                                        Run& run) const {
   require_walks(system, name());
   require_solvable(system);
+  require_replications(settings_);
   if (!prepare(system, state)) return {.why = SolverReport::Stopped::nothing_to_do};
   ColumnMatrix worth;
   const BounceFactory of = bounces_of(system, worth, run);

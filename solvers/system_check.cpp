@@ -44,6 +44,12 @@ void require_absorption(const System& system) {
   }
 }
 
+void require_finite_target(std::span<const double> target) {
+  for (std::size_t a = 0; a < target.size(); ++a)
+    if (!std::isfinite(target[a]))
+      throw core::InputError(core::format("target %g of unknown %zu: a finite number expected", target[a], a));
+}
+
 }  // namespace
 
 void require_solvable(const System& system) {
@@ -53,6 +59,7 @@ void require_solvable(const System& system) {
   if (static_cast<Index>(G.size()) != n || system.e.rows() != n || rho.rows() != n || rho.cols() != system.e.cols())
     throw core::PreconditionError("solve: K, R and e have different shapes");
   require_absorption(system);
+  require_finite_target(system.target);
   for (Index a = 0; a < n; ++a) {
     if (const double area = G[static_cast<std::size_t>(a)]; !(area > 0) || !std::isfinite(area))
       throw core::InputError(
@@ -125,6 +132,11 @@ void require_target(const System& system, const std::string& solver) {
     throw core::PreconditionError("solve: the target has another shape than the exitance");
 }
 
+void require_replications(const SolverSettings& settings) {
+  if (settings.replications < 10)
+    throw core::InputError("solvers that sample", "10 replications or more expected: errors are by how they differ");
+}
+
 bool prepare(const System& system, SolverState& state) {
   if (state.x.size() == 0) state.x = system.e;
   if (state.x.rows() != system.e.rows() || state.x.cols() != system.e.cols())
@@ -136,6 +148,7 @@ bool prepare(const System& system, SolverState& state) {
     if (dark) state.x.col(c).setZero();
     any = any || !dark;
   }
+  if (!any) state = {.x = std::move(state.x), .step = state.step, .observer = std::move(state.observer)};
   return any;
 }
 

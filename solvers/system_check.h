@@ -6,7 +6,7 @@ namespace interflect::solvers {
 
 /// A reflectance of 1, of what only passes on what it receives, has an answer where others absorb.
 /// @throws core::InputError         reflectance outside 0 <= rho <= 1, or 1 everywhere; an exitance that is not a
-///                                  finite number; an unknown whose entry of G is not a positive number: an element
+///                                  finite number, or a part of the target; an unknown whose entry of G is not a positive number: an element
 ///                                  without area
 /// @throws core::PreconditionError  shapes of K, R and e that do not fit
 void require_solvable(const System& system);
@@ -29,7 +29,11 @@ void require_points(const System& system, const std::string& solver);
 /// @throws core::InputError  where nothing is asked for
 void require_target(const System& system, const std::string& solver);
 
-/// Makes `state` a start: x = e where it is empty, and 0 in columns without exitance, whose solution that is.
+/// @throws core::InputError  fewer than 10 replications: errors are by how they differ
+void require_replications(const SolverSettings& settings);
+
+/// Makes `state` a start: x = e where it is empty, and 0 in columns without exitance, whose solution that is; without
+/// what an earlier solve has left, where all are such columns.
 /// @return false where every column is such a one: there is nothing to do
 /// @throws core::PreconditionError  where x has another shape than e
 bool prepare(const System& system, SolverState& state);

@@ -132,6 +132,68 @@ TEST_P(EverySampler, refuses_an_element_without_area_in_one_line_that_says_so) {
   }
 }
 
+TEST_P(EverySampler, refuses_a_target_that_is_not_a_number) {
+  for (const double wrong : {not_a_number, infinite}) {
+    std::vector<double> target = all;
+    target[3] = wrong;
+    const Reflection R(good_rho);
+    System asked = system(R, good_e, untouched);
+    asked.target = target;
+    EXPECT_NE(complaint(asked, good_e).find("target"), std::string::npos);
+  }
+}
+
+TEST_P(EverySampler, refuses_too_few_replications_to_tell_an_error_by) {
+  core::LocalRun run(1, 1);
+  for (const int replications : {-1, 0, 9}) {
+    SolverState state{good_e};
+    SolverSettings settings;
+    settings.replications = replications;
+    const Reflection R(good_rho);
+    EXPECT_THROW(make_solver(GetParam(), settings)->advance(system(R, good_e, untouched), state, {}, run),
+                 core::InputError);
+  }
+}
+
+// A state that was solved for light has nothing left of it when there is none.
+TEST_P(EverySampler, forgets_in_the_dark_what_it_has_found) {
+  const MatrixSampler walks(K);
+  const Reflection R(good_rho);
+  SolverState state{good_e};
+  solve(system(R, good_e, walks), state);
+  ASSERT_GT(state.standard_error.size(), 0);
+  const ColumnMatrix nothing = ColumnMatrix::Zero(n, 2);
+  EXPECT_EQ(solve(system(R, nothing, walks), state).why, SolverReport::Stopped::nothing_to_do);
+  EXPECT_EQ(state.x, nothing);
+  EXPECT_EQ(state.standard_error.size() + state.power_error.size() + state.target.size() + state.residual.size(), 0);
+}
+
+// Of what leaves one unknown the other gets little: who has found nothing of it does not say that nothing is there.
+// Within six standard errors by 32 replications, alpha 1e-6 each; and what comes back, F² / 4 of it, may be missed.
+TEST_P(EverySampler, looks_on_for_light_that_is_seldom_found) {
+  using Needs = SolverEntry::Needs;
+  const Needs needs = solver_named(GetParam()).needs;
+  if (needs == Needs::target || needs == Needs::closed_room) GTEST_SKIP() << "an open room without a target";
+  for (const double F : {1e-3, 1e-5}) {
+    Eigen::MatrixXd exchange(2, 2);
+    exchange << 0, F, F, 0;
+    const FullOperator rare(exchange, Eigen::VectorXd::Ones(2));
+    const MatrixSampler walks(rare);
+    const ColumnMatrix rho = ColumnMatrix::Constant(2, 1, .5);
+    ColumnMatrix e(2, 1);
+    e << 1, 0;
+    const Reflection R(rho);
+    SolverState state{e};
+    core::LocalRun run(1, 2);
+    StoppingRule rule;
+    rule.noise = .2;
+    const SolverReport report = make_solver(GetParam())->advance({rare, R, e, &walks}, state, rule, run);
+    EXPECT_TRUE(report.converged());
+    const double exact = by_elimination(rare, rho, e)(1, 0);
+    EXPECT_NEAR(state.x(1, 0), exact, 6 * state.standard_error(1, 0) + 1e-6 * exact) << F;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EverySampler, testing::ValuesIn(solver_names(true)), [](const auto& which) {
   std::string name = which.param;
   std::replace(name.begin(), name.end(), '-', '_');
