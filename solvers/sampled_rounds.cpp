@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "solvers/replications.h"
+#include "solvers/round_progress.h"
 #include "solvers/system_check.h"
 
 namespace interflect::solvers {
@@ -68,15 +69,16 @@ SolverReport sample_in_rounds(const System& system, SolverState& state, const St
   const RoundStop stop(iterations);
   std::uint64_t done = 0, next = rounds.first;
   double drawn = 0;
+  RoundProgress progress(run.progress);
+  if (most > 0) progress.expect(static_cast<double>(most));
   for (bool more = true; more; next = 2 * done) {
     if (most > 0) next = std::min(next, most);
     std::atomic<std::uint64_t> draws = 0;
-    core::Progress::Stage stage(run.progress, "samples", static_cast<std::uint64_t>(replications.count()));
     try {
       if (rounds.prepare) draws = rounds.prepare(done, next, stop);
       replications.add(run, [&](int r, ColumnMatrix& sum) {
         draws += rounds.add(r, done, next, sum, stop);
-        stage.advance();
+        progress.add(static_cast<double>(next - done) / replications.count());
       });
     } catch (const RoundStop::Asked&) {
       if (done == 0) nothing_yet(system, state);
@@ -91,6 +93,7 @@ SolverReport sample_in_rounds(const System& system, SolverState& state, const St
     drawn += static_cast<double>(draws);
     const double noise = system.target.empty() ? relative_noise(system, state.standard_error, x - system.e, drawn)
                                                : target_noise(system, state, replications, done, drawn);
+    if (most == 0) progress.expect_by(noise, rule.noise);
     more = iterations.next(x, {noise, static_cast<double>(draws), most > 0 ? done == most : noise <= rule.noise});
   }
   return iterations.report();

@@ -148,7 +148,10 @@ bool prepare(const System& system, SolverState& state) {
     if (dark) state.x.col(c).setZero();
     any = any || !dark;
   }
-  if (!any) state = {.x = std::move(state.x), .step = state.step, .observer = std::move(state.observer)};
+  if (!any) {
+    for (ColumnMatrix* of_x : {&state.residual, &state.standard_error}) of_x->setZero();
+    for (Eigen::RowVectorXd* of_column : {&state.power_error, &state.target, &state.target_error}) of_column->setZero();
+  }
   return any;
 }
 

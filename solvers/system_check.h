@@ -32,8 +32,8 @@ void require_target(const System& system, const std::string& solver);
 /// @throws core::InputError  fewer than 10 replications: errors are by how they differ
 void require_replications(const SolverSettings& settings);
 
-/// Makes `state` a start: x = e where it is empty, and 0 in columns without exitance, whose solution that is; without
-/// what an earlier solve has left, where all are such columns.
+/// Makes `state` a start: x = e where it is empty, and 0 in columns without exitance, whose solution that is; and
+/// so what an earlier solve has left beside x, where all are such columns.
 /// @return false where every column is such a one: there is nothing to do
 /// @throws core::PreconditionError  where x has another shape than e
 bool prepare(const System& system, SolverState& state);

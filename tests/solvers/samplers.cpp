@@ -165,7 +165,8 @@ TEST_P(EverySampler, forgets_in_the_dark_what_it_has_found) {
   const ColumnMatrix nothing = ColumnMatrix::Zero(n, 2);
   EXPECT_EQ(solve(system(R, nothing, walks), state).why, SolverReport::Stopped::nothing_to_do);
   EXPECT_EQ(state.x, nothing);
-  EXPECT_EQ(state.standard_error.size() + state.power_error.size() + state.target.size() + state.residual.size(), 0);
+  EXPECT_EQ(state.standard_error, nothing);
+  EXPECT_EQ(state.power_error.norm() + state.target.norm() + state.target_error.norm() + state.residual.norm(), 0);
 }
 
 // Of what leaves one unknown the other gets little: who has found nothing of it does not say that nothing is there.
