@@ -82,6 +82,7 @@ results::Record solver_record(const RadiositySolution& solution) {
   results::Record record;
   record.add("stopped", solvers::describe(solution.solver.why))
       .add("iterations", solution.solver.iterations())
+      .add("rows_or_rays", solution.solver.rows())
       .add("residual", solution.solver.residual())
       .add("residual_history", solution.solver.residuals());
   return record;

@@ -165,9 +165,9 @@ class Combined {
 
 /// For one that shoots: where the number of all is given, so many that there are some that shoot.
 double most_that_gather(const StoppingRule& rule, int replications) {
-  constexpr double most = 1e4, shooting = 16;
-  if (rule.samples == 0) return most;
-  return std::clamp(static_cast<double>(rule.samples) / (shooting * replications) - 1, 1.0, most);
+  constexpr double shooting = 16;
+  if (rule.samples == 0) return most_gathering_walks;
+  return std::clamp(static_cast<double>(rule.samples) / (shooting * replications) - 1, 1.0, most_gathering_walks);
 }
 
 }  // namespace

@@ -20,11 +20,12 @@ struct WalkPlan {
   ColumnMatrix shooting, gathering;  ///< V of each unknown and column, as estimated
   Eigen::VectorXd gathered;          ///< n_i, for every walk that shoots
 };
+constexpr double most_gathering_walks = 1e4;  ///< for one that shoots
 /// @param shooting, gathering  V, of one walk
 /// @param scale  of each column, that its variances are measured by
 /// @param most  that gather, for one that shoots
 WalkPlan plan_walks(ColumnMatrix shooting, ColumnMatrix gathering, std::span<const double> areas,
-                    const Eigen::RowVectorXd& scale, double most = 1e4);
+                    const Eigen::RowVectorXd& scale, double most = most_gathering_walks);
 
 /// Shooting and gathering walks together [Sbert 1997], of constants: variances are found by a few rays first, are the
 /// same for all replications, and are only weights, so that means are right whatever they are.

@@ -83,6 +83,8 @@ TEST(Solve, of_a_run_that_was_stopped_can_be_had_again) {
     solve(scene, solver, "again", {"--steps", std::to_string(first.at("iterations").get<int>())});
     const json again = json::parse(read_file(folder / "again/summary.json")).at("solver");
     EXPECT_EQ(again.at("residual_history"), first.at("residual_history")) << solver;
+    EXPECT_GT(first.at("rows_or_rays"), 0) << solver;
+    EXPECT_EQ(again.at("rows_or_rays"), first.at("rows_or_rays")) << solver;
     const auto before = read_csv(folder / "stopped/surfaces.csv"), after = read_csv(folder / "again/surfaces.csv");
     ASSERT_EQ(before.size(), after.size());
     const auto radiosity = 2u, irradiance = before[0].size() > 10 ? 5u : 3u;
