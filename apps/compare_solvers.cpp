@@ -29,15 +29,15 @@ std::string csv_of(const fem::SolverComparison& comparison, const scene::Scene& 
   results::Csv csv;
   for (const char* heading : {"solver", "iteration", "rows_or_rays", "seconds", "error", "residual_or_noise"})
     csv.text(heading);
-  if (comparison.of_goal) csv.text("value").text("standard_error").text("value_of_solution");
+  if (comparison.of_goal()) csv.text("value").text("standard_error").text("value_of_solution");
   csv.end_line();
   for (const SolverScore& score : comparison.scores)
     for (std::size_t k = 0; k < score.history.size(); ++k) {
       const SolverScore::At& at = score.history[k];
       csv.text(score.solver).number(static_cast<double>(k + 1)).number(at.rows).number(at.seconds);
       csv.number(at.error).number(at.residual);
-      if (comparison.of_goal)
-        csv.number(scene.weigh(at.goal)).number(scene.weigh(at.goal_error)).number(scene.weigh(comparison.goal));
+      if (comparison.of_goal())
+        csv.number(scene.weigh(at.goal)).number(scene.weigh(at.goal_error)).number(scene.weigh(*comparison.goal));
       csv.end_line();
     }
   return csv.str();
@@ -86,13 +86,13 @@ std::string legend_of(const fem::SolverComparison& comparison, const Question& q
   text += ", against the solution of the same equations; what elements cannot show is in none\n";
   text += "work: until the error is below, in sweeps (each uses the whole matrix once; form factors are not counted)";
   text += sampled ? ",\n      or in rays of those that sample, which stop at the noise that --noise asks for\n" : "\n";
-  if (sampled && comparison.of_goal)
+  if (sampled && comparison.of_goal())
     text += "      by the standard error that they state: one number that is sampled may be near the truth by luck\n";
   if (question.goal) {
     const auto [quantity, unit] = quantity_of(*question.goal, question.scene);
     text +=
         core::format("value: %s [%s] as the solver has it in the end%s; by the solution %.6g\n", quantity.c_str(), unit,
-                     sampled ? ", +- its standard error if it samples" : "", question.scene.weigh(comparison.goal));
+                     sampled ? ", +- its standard error if it samples" : "", question.scene.weigh(*comparison.goal));
   }
   if (any([](const SolverScore& score) { return score.solver == "continuous-shooting"; }))
     text +=
@@ -111,22 +111,22 @@ std::string value_text(const SolverScore& score, const scene::Scene& scene) {
 std::string table_of(const fem::SolverComparison& comparison, const scene::Scene& scene) {
   std::vector<std::string> heading{"solver",    "work to 10 %", "to 1 %",   "to 1e-6",
                                    "s to 1e-6", "error at end", "s in all", "stopped"};
-  if (comparison.of_goal) heading.insert(heading.end() - 1, "value");
+  if (comparison.of_goal()) heading.insert(heading.end() - 1, "value");
   Table table(std::move(heading));
   for (const SolverScore& score : comparison.scores) {
     std::vector<std::string> row{score.solver};
     for (const double error : milestones) {
-      const SolverScore::At* at = first_below(score, error, comparison.of_goal);
+      const SolverScore::At* at = first_below(score, error, comparison.of_goal());
       if (score.samples)
         row.push_back(at ? core::format("%.2g rays", at->rows) : "-");
       else
         row.push_back(at ? core::format("%.3g", at->rows / static_cast<double>(comparison.unknowns)) : "-");
     }
-    const SolverScore::At* last = first_below(score, milestones[2], comparison.of_goal);
+    const SolverScore::At* last = first_below(score, milestones[2], comparison.of_goal());
     row.push_back(last ? core::format("%.3g", last->seconds) : "-");
     row.push_back(score.history.empty() ? "-" : core::format("%.2g", score.history.back().error));
     row.push_back(score.history.empty() ? "-" : core::format("%.3g", score.history.back().seconds));
-    if (comparison.of_goal) row.push_back(value_text(score, scene));
+    if (comparison.of_goal()) row.push_back(value_text(score, scene));
     row.push_back(refused(score) ? "refused" : score.why);
     table.add(std::move(row));
   }
@@ -152,7 +152,7 @@ results::Record record_of(const fem::SolverComparison& comparison, const Questio
   if (question.goal)
     record.add("goal", question.goal->name)
         .add("unit", quantity_of(*question.goal, question.scene).unit)
-        .add("value_of_solution", question.scene.weigh(comparison.goal));
+        .add("value_of_solution", question.scene.weigh(*comparison.goal));
   return record.add("stopped", comparison.stopped())
       .add("left_out", comparison.left_out)
       .add("solvers", std::move(list));
@@ -176,7 +176,7 @@ struct Picture {
 visual::Plot plot_of(const fem::SolverComparison& comparison, const Picture& picture) {
   visual::Plot plot{std::string("linear solvers: error against ") + picture.x_label,
                     picture.x_label,
-                    comparison.of_goal
+                    comparison.of_goal()
                         ? "relative error of the goal; of those that sample, the standard error that they state"
                         : "relative error, L2 over the surfaces",
                     {}};
@@ -186,7 +186,7 @@ visual::Plot plot_of(const fem::SolverComparison& comparison, const Picture& pic
     if (picture.drawn == Drawn::all) curve.panel = score.samples ? "those that sample" : "those that have the matrix";
     for (const SolverScore::At& at : score.history) {
       curve.x.push_back(picture.x(at, static_cast<double>(comparison.unknowns)));
-      curve.y.push_back(judged(score, at, comparison.of_goal));
+      curve.y.push_back(judged(score, at, comparison.of_goal()));
     }
     plot.curves.push_back(std::move(curve));
   }

@@ -148,7 +148,7 @@ SolverComparison compare_solvers(const scene::Scene& scene, const RadiositySetti
   solvers::SolverState solution{system.e};
   solvers::make_solver("automatic")->advance(system, solution, {1e-13, 200}, run);
   run.throw_if_stopped("comparing solvers");
-  SolverComparison out{equations.elements(), system.e.rows(), goal.has_value(), {}, {}, {}};
+  SolverComparison out{equations.elements(), system.e.rows(), {}, {}, {}};
   if (goal) out.goal = to_spectrum(value_of_target(system, solution.x));
   core::Progress::Stage stage(run.progress, "solvers", names.size());
   for (const std::string& name : names) {

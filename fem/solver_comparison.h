@@ -31,10 +31,10 @@ struct SolverScore {
 /// What all of them are asked, and the mesh's size.
 struct SolverComparison {
   Index elements, unknowns;
-  bool of_goal;   ///< errors are
-  Spectrum goal;  ///< J of the solution that all are held against, if it is asked for
+  std::optional<Spectrum> goal;  ///< J of the solution that all are held against, if it is asked for
   std::vector<SolverScore> scores;
-  std::vector<std::string> left_out;  ///< the run was asked to stop before these had anything
+  std::vector<std::string> left_out;                 ///< the run was asked to stop before these had anything
+  bool of_goal() const { return goal.has_value(); }  ///< errors are
   bool stopped() const { return !left_out.empty() || (!scores.empty() && scores.back().stopped); }
 };
 
