@@ -41,7 +41,9 @@ void block_watched_signals() {
 class Session::SignalWatch {
  public:
   /// @param seconds  0: for ever
-  SignalWatch(std::stop_source& stop, double seconds) : thread_([this, &stop, seconds] { watch(stop, seconds); }) {}
+  /// @param late     asked to stop too, and before, where it is the time that is over
+  SignalWatch(std::stop_source& stop, std::stop_source& late, double seconds)
+      : thread_([this, &stop, &late, seconds] { watch(stop, late, seconds); }) {}
   ~SignalWatch() {
     done_ = true;
     pthread_kill(thread_.native_handle(),
@@ -50,11 +52,12 @@ class Session::SignalWatch {
   }
 
  private:
-  void watch(std::stop_source& stop, double seconds) {
+  void watch(std::stop_source& stop, std::stop_source& late, double seconds) {
     const sigset_t set = watched_signals();
     if (seconds > 0) {
       const bool signalled = came_within(seconds, set);
       if (done_) return;
+      if (!signalled) late.request_stop();
       stop.request_stop();
       core::log::warning(signalled ? "stopping; once more to end at once" : "--max-time is over: stopping");
     }
@@ -82,8 +85,8 @@ class Session::SignalWatch {
 Session::Session(const CommonOptions& options)
     : threads_(options.threads),
       progress_(style(options)),
-      run_{options.seed, threads_, progress_, stop_.get_token()},
-      watch_(std::make_unique<SignalWatch>(stop_, options.max_time)) {}
+      run_{options.seed, threads_, progress_, stop_.get_token(), late_.get_token()},
+      watch_(std::make_unique<SignalWatch>(stop_, late_, options.max_time)) {}
 
 Session::~Session() = default;
 

@@ -24,7 +24,7 @@ class Session {
 
   core::Threads threads_;
   core::Progress progress_;
-  std::stop_source stop_;
+  std::stop_source stop_, late_;
   Run run_;
   std::unique_ptr<SignalWatch> watch_;
 };

@@ -199,7 +199,7 @@ ExitStatus print_forecast(const SolveOptions& options, const CommonOptions& comm
 static bool is_part_of_more(const fem::RadiositySolution& solution) {
   using Stopped = solvers::SolverReport::Stopped;
   const auto& made = solution.adaptation;
-  return (made && made->why == fem::AdaptiveStop::asked_to_stop) || solution.solver.why == Stopped::asked_to ||
+  return (made && was_stopped(made->why)) || solution.solver.why == Stopped::asked_to ||
          solution.solver.why == Stopped::time_limit;
 }
 

@@ -16,12 +16,15 @@ struct Run {
   std::uint64_t seed;
   const core::Threads& threads;
   core::Progress& progress;
-  std::stop_token stop;  ///< Ctrl-C: polled between units of work
+  std::stop_token stop;    ///< Ctrl-C, or time that is over: polled between units of work
+  std::stop_token late{};  ///< time that is over alone, before `stop` says so: for who says why it stopped
 
   /// Throws core::Interrupted if the run was asked to stop: for stages that leave nothing worth keeping.
   void throw_if_stopped(const std::string& stage) const {
     if (stop.stop_requested()) throw core::Interrupted(stage);
   }
+  /// Whether it was asked to stop because its time is over.
+  bool out_of_time() const { return late.stop_requested(); }
   /// The same, deaf to that: for the last steps, which make what there is worth keeping.
   Run to_the_end() const { return {seed, threads, progress, {}}; }
 };

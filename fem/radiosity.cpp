@@ -329,7 +329,7 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   const auto rays = timed("ray tree", [&] { return make_light_caster(settings.intersector, scene, asked.seed); });
   const Problem problem{scene, settings, *rays};
   Elements elements = elements_with_factors(problem, timed, asked);
-  const bool passes_stopped = elements.adaptation && elements.adaptation->why == AdaptiveStop::asked_to_stop;
+  const bool passes_stopped = elements.adaptation && was_stopped(elements.adaptation->why);
   Run run = passes_stopped ? asked.to_the_end() : asked;  // to the end with the elements that there are
   RadiosityOperator& from = elements.from;
   RadiositySolution s = unsolved(elements, problem);

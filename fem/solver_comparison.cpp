@@ -127,9 +127,10 @@ std::optional<SolverScore> score(const std::string& name, const solvers::System&
     looking += core::seconds_since(start);
   };
   try {
+    using Stopped = solvers::SolverReport::Stopped;
     const auto why = solvers::make_solver(name, of_solver)->advance(system, state, settings.stopping, run).why;
     out.why = describe(why);
-    out.stopped = why == solvers::SolverReport::Stopped::asked_to;
+    out.stopped = run.stop.stop_requested() && (why == Stopped::asked_to || why == Stopped::time_limit);
   } catch (const core::InputError& error) {
     out.why = error.what();
   }

@@ -35,9 +35,14 @@ bool Iterations::next(const Outcome& outcome) {
 
 bool Iterations::interrupted() const { return run_.stop.stop_requested() || out_of_time(); }
 
+/// The run's time counts as the rule's does.
+SolverReport::Stopped Iterations::why_interrupted() const {
+  const bool asked = run_.stop.stop_requested() && !run_.out_of_time();
+  return asked ? SolverReport::Stopped::asked_to : SolverReport::Stopped::time_limit;
+}
+
 SolverReport Iterations::given_up() {
-  using Stopped = SolverReport::Stopped;
-  report_.why = run_.stop.stop_requested() ? Stopped::asked_to : Stopped::time_limit;
+  report_.why = why_interrupted();
   return report();
 }
 
@@ -50,10 +55,8 @@ bool Iterations::take_down(const Outcome& outcome) {
     report_.why = Stopped::converged;
   else if (report_.iterations() >= rule_.max_iterations)
     report_.why = Stopped::iteration_limit;
-  else if (run_.stop.stop_requested())
-    report_.why = Stopped::asked_to;
-  else if (out_of_time())
-    report_.why = Stopped::time_limit;
+  else if (interrupted())
+    report_.why = why_interrupted();
   else
     more = true;
   if (state_.observer) state_.observer(state_, report_);

@@ -37,6 +37,7 @@ class Iterations {
 
  private:
   bool out_of_time() const { return core::seconds_since(start_) >= rule_.max_seconds; }
+  SolverReport::Stopped why_interrupted() const;
   bool take_down(const Outcome& outcome);
 
   SolverState& state_;

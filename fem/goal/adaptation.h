@@ -27,8 +27,12 @@ struct AdaptivePass {
   double seconds;       ///< since the start
 };
 
-enum class AdaptiveStop { met, form_factors, memory, passes, only_asked, asked_to_stop, no_light };
+enum class AdaptiveStop { met, form_factors, memory, passes, only_asked, asked_to_stop, out_of_time, no_light };
 std::string describe(AdaptiveStop why);
+/// Before its end, from outside.
+inline bool was_stopped(AdaptiveStop why) {
+  return why == AdaptiveStop::asked_to_stop || why == AdaptiveStop::out_of_time;
+}
 
 /// How elements came about that were made for a goal; there is a pass at least.
 struct Adaptation {

@@ -141,6 +141,8 @@ std::string describe(AdaptiveStop why) {
       return "no target was set";
     case AdaptiveStop::asked_to_stop:
       return "asked to stop";
+    case AdaptiveStop::out_of_time:
+      return "out of time";
     case AdaptiveStop::no_light:
       break;
   }
@@ -182,7 +184,7 @@ class Passes {
         elements = std::move(*next);
       }
     } catch (const core::Interrupted&) {
-      adaptation.why = AdaptiveStop::asked_to_stop;
+      adaptation.why = run_.out_of_time() ? AdaptiveStop::out_of_time : AdaptiveStop::asked_to_stop;
     }
     return {std::move(elements.mesh), std::move(elements.degree), std::move(elements.from), std::move(adaptation)};
   }

@@ -150,7 +150,7 @@ TEST(Solvers, that_were_compared_are_kept_when_time_is_over) {
   EXPECT_EQ(said.at("left_out"), (json{"stochastic-jacobi", "southwell"}));
   ASSERT_EQ(said.at("solvers").size(), 2u);
   EXPECT_EQ(said.at("solvers").at(0).at("stopped"), "converged");
-  EXPECT_EQ(said.at("solvers").at(1).at("stopped"), "asked to stop");
+  EXPECT_EQ(said.at("solvers").at(1).at("stopped"), "out of time");
   EXPECT_TRUE(contains(read_file(folder / "out/solvers.csv"), "\nshooting-collision,2,"));
   EXPECT_TRUE(std::filesystem::exists(folder / "out/solvers_rays.png"));
 }
