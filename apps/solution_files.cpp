@@ -333,6 +333,8 @@ std::string irradiance_text(const SolvedScene& solved) {
 /// @param samples  its residual is noise
 std::string solver_text(const solvers::SolverReport& report, bool samples) {
   const std::string why = solvers::describe(report.why);
+  if (report.why == solvers::SolverReport::Stopped::nothing_to_do)
+    return "solver      " + why + ": nothing was computed, and all is dark\n";
   if (samples)
     return core::format("solver      %s after %d rounds and %s rays, standard error %s (L2) of what is reflected\n",
                         why.c_str(), report.iterations(),
@@ -353,7 +355,7 @@ std::string solution_text(const SolvedScene& solved) {
                          s.rows.highest);
   text += matrix_text(s);
   text += irradiance_text(solved);
-  if (s.row_sum.empty())
+  if (s.row_sum.empty() && !s.solver.history.empty())
     text +=
         "            no matrix tells what smaller elements would change: what light varies by inside these stands for "
         "it,\n"

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "fem/dark_solution.h"
 #include "fem/goal/adaptive_elements.h"
 #include "fem/method_trial.h"
 #include "fem/radiosity_operator.h"
@@ -178,9 +179,10 @@ static Forecast of_all_channels(const scene::Scene& scene, const RadiositySettin
 Forecast forecast(const scene::Scene& scene, const RadiositySettings& given, const Run& run) {
   const RadiositySettings settings = with_mirrors_seen(scene, given);
   require_solvable(scene, settings);
+  require_compatible(settings);
+  if (is_dark(scene)) return forecast_of_darkness(scene, settings);
   if (any_smooth(scene) && !are_smooth_ones_grey(scene)) return of_all_channels(scene, settings, run);
   if (solvers::solver_named(settings.solver).samples()) return forecast_of_sampling(scene, settings, run);
-  require_compatible(settings);
   const mesh::ElementMesh mesh = settings.adaptive ? first_elements(scene, settings, *settings.adaptive)
                                                    : elements_of(scene, settings);  // little beside what is forecast
   const auto elements = static_cast<double>(mesh.size());

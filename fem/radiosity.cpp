@@ -9,6 +9,7 @@
 #include "fem/assembly.h"
 #include "fem/closure.h"
 #include "fem/columns.h"
+#include "fem/dark_solution.h"
 #include "fem/element_materials.h"
 #include "fem/energy.h"
 #include "fem/error_estimate.h"
@@ -179,6 +180,7 @@ std::unique_ptr<solvers::RadiositySolver> solver_of(const RadiositySettings& set
 }
 
 void require_compatible(const RadiositySettings& settings) {
+  if (solvers::solver_named(settings.solver).samples()) return require_sampled(settings);
   if (settings.adaptive && (settings.order < 1 || settings.order > 2))
     throw core::InputError(core::format("polynomials of order %d", settings.order),
                            "elements are made for a goal with order 1 or 2");
@@ -314,16 +316,7 @@ RadiositySolution solution_of(const std::string& group, const Equations& equatio
   return s;
 }
 
-}  // namespace
-
-RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& given, Run& asked) {
-  const RadiositySettings settings = with_mirrors_seen(scene, given);
-  require_solvable(scene, settings);
-  if (any_smooth(scene) && !are_smooth_ones_grey(scene))
-    return channel_by_channel(scene, settings.light_groups,
-                              [&](const scene::Scene& one) { return solve_radiosity(one, settings, asked); });
-  if (solvers::solver_named(settings.solver).samples()) return sample_radiosity(scene, settings, asked);
-  require_compatible(settings);
+RadiositySolution solve_by_factors(const scene::Scene& scene, const RadiositySettings& settings, Run& asked) {
   std::vector<StageCost> stages;
   StageClock timed(stages);
   const auto rays = timed("ray tree", [&] { return make_light_caster(settings.intersector, scene, asked.seed); });
@@ -350,6 +343,25 @@ RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySett
   timed("energy balance", [&] { balance_energy(s, problem, rest); });
   s.stages = std::move(stages);
   return s;
+}
+
+/// Also of one channel of several, whose solutions have the same parts whether there is light in it or not.
+RadiositySolution solve_one_way(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
+  if (solvers::solver_named(settings.solver).samples()) return sample_radiosity(scene, settings, run);
+  return solve_by_factors(scene, settings, run);
+}
+
+}  // namespace
+
+RadiositySolution solve_radiosity(const scene::Scene& scene, const RadiositySettings& given, Run& run) {
+  const RadiositySettings settings = with_mirrors_seen(scene, given);
+  require_solvable(scene, settings);
+  require_compatible(settings);
+  if (is_dark(scene)) return dark_solution(scene, settings, run);
+  if (any_smooth(scene) && !are_smooth_ones_grey(scene))
+    return channel_by_channel(scene, settings.light_groups,
+                              [&](const scene::Scene& one) { return solve_one_way(one, settings, run); });
+  return solve_one_way(scene, settings, run);
 }
 
 }  // namespace interflect::fem

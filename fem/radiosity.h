@@ -72,7 +72,8 @@ int order_of_blocks(const RadiositySettings& settings, std::span<const scene::Su
 /// The solver asked for.  @throws core::InputError  no such name, or settings out of its range
 std::unique_ptr<solvers::RadiositySolver> solver_of(const RadiositySettings& settings);
 
-/// @throws core::InputError  where settings do not go together: what polynomials of order 1 and more cannot have, yet
+/// @throws core::InputError  where settings do not go together: what polynomials of order 1 and more cannot have, yet, or
+///                           a solver that samples
 void require_compatible(const RadiositySettings& settings);
 
 /// What a solve will need, said before it starts; where elements are made for a goal, its first pass.
@@ -161,7 +162,8 @@ double mean_environment(const RadiositySolution& solution);
 
 /// Cuts, computes form factors, solves on the elements and on elements of twice the size (whose K is the sum of their
 /// children's, so that visibility is sampled once), and estimates the error from the difference (error_estimate.h); or
-/// without any matrix, by a solver that samples (sampled_radiosity.h).  Beside mirrors and smooth glass elements also
+/// without any matrix, by a solver that samples (sampled_radiosity.h).  Where nothing emits there is nothing to compute
+/// (dark_solution.h).  Beside mirrors and smooth glass elements also
 /// exchange light by way of these (specular/specular_chains.h), where they are coloured channel by channel.
 /// @throws core::InputError   no elements, too little memory, unknown names, a closure that cannot be (closure.h)
 /// @throws core::Interrupted

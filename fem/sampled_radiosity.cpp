@@ -26,22 +26,6 @@ using solvers::ColumnMatrix;
 
 constexpr double least_reflectance = 1e-9;  ///< so that black elements are scored, and nothing else changes
 
-void require_constants(const RadiositySettings& settings) {
-  const auto refuse = [&](const std::string& what) {
-    throw core::InputError("solver '" + settings.solver + "', which needs no matrix", "it does not go with " + what);
-  };
-  if (settings.order > 0)
-    refuse(core::format("polynomials of order %d here; compare-solvers has them", settings.order));
-  if (settings.projection != Projection::galerkin) refuse("values at nodes");
-  if (settings.adaptive) refuse("elements made for a goal");
-  if (settings.closure != "none") refuse("a closure that is restored: there are no form factors");
-  if (settings.drop_below > 0) refuse("pairs left out (drop-below)");
-  if (settings.row_tolerance > 0) refuse("a tolerance of rows: there are none");
-  if (settings.stored_factors) refuse("view factors of a file");
-  if (solvers::solver_named(settings.solver).needs == solvers::SolverEntry::Needs::target)
-    refuse("a whole solution: it is for one number, as compare-solvers --goal asks for");
-}
-
 /// A scene's elements and rays, and what goes by them.
 class Sampling {
  public:
@@ -180,8 +164,23 @@ double seconds_of_a_solve(const Sampling& sampling, const solvers::StoppingRule&
 
 }  // namespace
 
+void require_sampled(const RadiositySettings& settings) {
+  const auto refuse = [&](const std::string& what) {
+    throw core::InputError("solver '" + settings.solver + "', which needs no matrix", "it does not go with " + what);
+  };
+  if (settings.order > 0)
+    refuse(core::format("polynomials of order %d here; compare-solvers has them", settings.order));
+  if (settings.projection != Projection::galerkin) refuse("values at nodes");
+  if (settings.adaptive) refuse("elements made for a goal");
+  if (settings.closure != "none") refuse("a closure that is restored: there are no form factors");
+  if (settings.drop_below > 0) refuse("pairs left out (drop-below)");
+  if (settings.row_tolerance > 0) refuse("a tolerance of rows: there are none");
+  if (settings.stored_factors) refuse("view factors of a file");
+  if (solvers::solver_named(settings.solver).needs == solvers::SolverEntry::Needs::target)
+    refuse("a whole solution: it is for one number, as compare-solvers --goal asks for");
+}
+
 RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
-  require_constants(settings);
   std::vector<StageCost> stages;
   StageClock timed(stages);
   const mesh::ElementMesh mesh = timed("mesh", [&] { return mesh_of(scene, settings); });
@@ -208,7 +207,6 @@ RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySet
 }
 
 Forecast forecast_of_sampling(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
-  require_constants(settings);
   const mesh::ElementMesh mesh = mesh_of(scene, settings);
   const Sampling sampling(scene, settings, mesh, run.seed);
   const double a_column = 8.0 * scene.channel_count() * (settings.solver_settings.replications + 4);

@@ -16,6 +16,9 @@ namespace interflect::fem {
 /// @throws core::Interrupted  before there are estimates
 RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);
 
+/// @throws core::InputError  settings that this cannot have
+void require_sampled(const RadiositySettings& settings);
+
 /// Elements, memory, and seconds by a short trial.
 Forecast forecast_of_sampling(const scene::Scene& scene, const RadiositySettings& settings, const Run& run);
 
