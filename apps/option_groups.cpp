@@ -62,7 +62,8 @@ CLI::Option* add_order(CLI::App& command, fem::RadiositySettings& s, const CLI::
             s.order = order;
             if (order > 0 && method->empty()) s.form_factors = "analytic";
           },
-          "Degree of the polynomials on an element; from 1 on by analytic, gauss-lambert or duffy")
+          "Degree of the polynomials on an element; from 1 on by analytic, gauss-lambert or duffy, or\n"
+          "without a matrix by stochastic-jacobi or regular-stochastic-jacobi")
       ->check(whole(0, 3));
 }
 

@@ -356,10 +356,11 @@ std::string solution_text(const SolvedScene& solved) {
   text += matrix_text(s);
   text += irradiance_text(solved);
   if (s.row_sum.empty() && !s.solver.history.empty())
-    text +=
-        "            no matrix tells what smaller elements would change: what light varies by inside these stands for "
-        "it,\n"
-        "            which more rays do not lower\n";
+    text += core::format(
+        "            no matrix tells what smaller elements would change: what %s\n            stands for it, which "
+        "more "
+        "rays do not lower\n",
+        s.field ? "polynomials of the highest degree bring" : "light varies by inside these");
   if (solved.bounds) text += bounds_text(solved, *solved.bounds);
   if (solved.residual) text += residual_text(solved, *solved.residual);
   text += solver_text(s.solver, s.row_sum.empty());

@@ -5,6 +5,7 @@
 
 #include "core/run.h"
 #include "core/spectrum.h"
+#include "fem/polynomial_field.h"
 #include "fem/ray_transitions.h"
 
 namespace interflect::fem {
@@ -14,5 +15,9 @@ namespace interflect::fem {
 /// @param sent  v, one an element
 /// Test: tests/fem/sampled_radiosity.cpp
 std::vector<Spectrum> arriving_by_rays(const RayTransitions& rays, std::span<const Spectrum> sent, const Run& run);
+
+/// What arrives at elements of that which the highest degree adds to radiosity, B_h less that of the order below, in the
+/// mean: its size by 64 rays of each, and what their spread leaves open.
+std::vector<Spectrum> added_by_rays(const RayTransitions& rays, const PolynomialField& field, const Run& run);
 
 }  // namespace interflect::fem

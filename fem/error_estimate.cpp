@@ -252,11 +252,28 @@ Spectrum irradiance_variation(const RadiositySolution& s, std::size_t element) {
   return sqrt(sum / 3.0);
 }
 
+/// sqrt(size² - variance), or 0.
+static Spectrum without_noise(const Spectrum& size, const Spectrum& variance) {
+  return (size * size - variance).map([](double square) { return std::sqrt(std::max(0.0, square)); });
+}
+
 /// The variation of irradiance inside an element, less what independent noise of siblings makes of it: (1 - 1/4) / 3 of
 /// its variance.
 static Spectrum variation_without_noise(const RadiositySolution& s, std::size_t i) {
-  const Spectrum variation = irradiance_variation(s, i), noise = .25 * s.own_variance(i);
-  return (variation * variation - noise).map([](double square) { return std::sqrt(std::max(0.0, square)); });
+  return without_noise(irradiance_variation(s, i), .25 * s.own_variance(i));
+}
+
+void estimate_errors_of_polynomials_alone(RadiositySolution& s, std::span<const Spectrum> added) {
+  const PolynomialField& field = *s.field;
+  add_discretisation(s, added, false);
+  const Spectrum later = later_bounces(s) * area_mean(s.mesh, added);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const Index first = static_cast<Index>(i) * field.functions;
+    const Spectrum size = PolynomialField::of_degree(field.order, field.irradiance, first),
+                   noise = PolynomialField::of_degree(field.order, field.irradiance_noise, first);
+    s.irradiance_error[i] += later;
+    s.field_error.push_back(s.reflectance[i] * without_noise(size, noise * noise));
+  }
 }
 
 void estimate_errors_alone(RadiositySolution& s, std::span<const Spectrum> bound, const Spectrum& missing,

@@ -84,6 +84,11 @@ using Arriving = std::function<std::vector<Spectrum>(std::span<const Spectrum> s
 void estimate_errors_alone(RadiositySolution& solution, std::span<const Spectrum> bound, const Spectrum& missing,
                            const Arriving& arriving = {});
 
+/// Of polynomials without a matrix: with |D| what the highest degree adds to elements' means, as above, and rho / (1 - rho)
+/// times its mean in later bounces; in the field what that degree makes of H, noise subtracted.
+/// @param added  |D|
+void estimate_errors_of_polynomials_alone(RadiositySolution& solution, std::span<const Spectrum> added);
+
 /// Of four elements that are the quarters of one, for each of them.
 std::vector<Spectrum> means_of_fours(const mesh::ElementMesh& mesh, std::span<const Spectrum> values);
 

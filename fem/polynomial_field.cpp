@@ -1,5 +1,8 @@
 #include "fem/polynomial_field.h"
 
+#include "fem/columns.h"
+#include "fem/space/polynomials.h"
+
 namespace interflect::fem {
 
 Spectrum PolynomialField::weighed(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w) {
@@ -13,6 +16,43 @@ Spectrum PolynomialField::sizes(const solvers::ColumnMatrix& coefficients, Index
   Spectrum sum;
   for (int c = 0; c < coefficients.cols(); ++c) sum[c] = coefficients.col(c).segment(first, functions).cwiseAbs().sum();
   return sum;
+}
+
+Spectrum PolynomialField::independent(const solvers::ColumnMatrix& coefficients, Index first,
+                                      std::span<const double> w) {
+  Spectrum squares;
+  for (std::size_t a = 0; a < w.size(); ++a)
+    for (int c = 0; c < coefficients.cols(); ++c) {
+      const double each = w[a] * coefficients(first + static_cast<Index>(a), c);
+      squares[c] += each * each;
+    }
+  return sqrt(squares);
+}
+
+Spectrum PolynomialField::of_degree(int degree, const solvers::ColumnMatrix& coefficients, Index first) {
+  const Index below = degree > 0 ? plane_functions(degree - 1) : 0;
+  const std::vector<double> ones(static_cast<std::size_t>(plane_functions(degree) - below), 1.0);
+  return independent(coefficients, first + below, ones);
+}
+
+std::vector<Spectrum> PolynomialField::means(const solvers::ColumnMatrix& coefficients, Index functions) {
+  solvers::ColumnMatrix first(coefficients.rows() / functions, coefficients.cols());
+  for (Index i = 0; i < first.rows(); ++i) first.row(i) = coefficients.row(i * functions);
+  return to_spectra(first);
+}
+
+std::vector<PlaneBasis> bases_of(int order, std::span<const scene::SurfacePatch> patches) {
+  std::vector<PlaneBasis> bases;
+  bases.reserve(patches.size());
+  for (const scene::SurfacePatch& patch : patches) bases.emplace_back(order, patch.ring(), patch.normal());
+  return bases;
+}
+
+Spectrum PolynomialField::noise_at(std::size_t element, const Vec3& x) const {
+  if (irradiance_noise.size() == 0) return Spectrum::zero();
+  const PlaneBasis::Values N = bases[element].at(x);
+  return independent(irradiance_noise, static_cast<Index>(element) * functions,
+                     {N.data(), static_cast<std::size_t>(functions)});
 }
 
 Spectrum PolynomialField::value(const solvers::ColumnMatrix& coefficients, std::size_t element, const Vec3& x) const {

@@ -5,6 +5,7 @@
 
 #include "core/spectrum.h"
 #include "fem/space/plane_basis.h"
+#include "scene/place.h"
 #include "solvers/transport_operator.h"
 
 namespace interflect::fem {
@@ -23,19 +24,35 @@ struct PolynomialField {
   solvers::ColumnMatrix radiosity;        ///< c: unknowns x channels
   solvers::ColumnMatrix irradiance;       ///< G^-1 K c
   solvers::ColumnMatrix radiosity_below;  ///< of the order below, on the same functions
+  solvers::ColumnMatrix irradiance_noise{};  ///< standard errors of irradiance's that were sampled by rays; else empty
 
   /// B_h at a point of an element.
   Spectrum at(std::size_t element, const Vec3& x) const { return value(radiosity, element, x); }
   Spectrum irradiance_at(std::size_t element, const Vec3& x) const { return value(irradiance, element, x); }
+  /// Of it, what is not of the order below.
+  Spectrum added_at(std::size_t element, const Vec3& x) const {
+    return at(element, x) - value(radiosity_below, element, x);
+  }
+  /// Standard error of irradiance at a point that sampled coefficients have; 0 where none were.
+  Spectrum noise_at(std::size_t element, const Vec3& x) const;
   /// Root mean square of irradiance in an element about its mean.
   Spectrum irradiance_variation(std::size_t element) const;
   /// sum_a w_a c_a of an element: w are what its functions are worth.
   static Spectrum weighed(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
   /// sum_a |c_a| of an element's.
   static Spectrum sizes(const solvers::ColumnMatrix& coefficients, Index first, Index functions);
+  /// sqrt(sum_a w_a² c_a²): of standard errors, that of what is weighed.
+  static Spectrum independent(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
+  /// sqrt(sum c_a²) of functions of one degree: their root mean square on an element.
+  static Spectrum of_degree(int degree, const solvers::ColumnMatrix& coefficients, Index first);
+  /// Of elements: coefficients of their first functions.
+  static std::vector<Spectrum> means(const solvers::ColumnMatrix& coefficients, Index functions);
 
  private:
   Spectrum value(const solvers::ColumnMatrix& coefficients, std::size_t element, const Vec3& x) const;
 };
+
+/// The functions of elements.
+std::vector<PlaneBasis> bases_of(int order, std::span<const scene::SurfacePatch> patches);
 
 }  // namespace interflect::fem

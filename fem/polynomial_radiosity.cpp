@@ -10,12 +10,6 @@ namespace {
 
 using solvers::ColumnMatrix;
 
-std::vector<Spectrum> means(const ColumnMatrix& coefficients, Index functions) {
-  ColumnMatrix first(coefficients.rows() / functions, coefficients.cols());
-  for (Index i = 0; i < first.rows(); ++i) first.row(i) = coefficients.row(i * functions);
-  return to_spectra(first);
-}
-
 /// With the functions up to a degree of each element alone.
 ElementFields solved(const RadiositySolution& s, const SymmetricOperator& K, std::span<const int> degree,
                      Index functions, const RadiositySettings& settings, int channels, Run& run) {
@@ -36,17 +30,6 @@ ElementFields solved(const RadiositySolution& s, const SymmetricOperator& K, std
   return fields;
 }
 
-/// Root mean square of the functions of a degree.
-Spectrum of_degree(int degree, const ColumnMatrix& coefficients, Index element, Index functions) {
-  Spectrum squares;
-  for (Index a = plane_functions(degree - 1); a < plane_functions(degree); ++a)
-    for (int c = 0; c < coefficients.cols(); ++c) {
-      const double value = coefficients(element * functions + a, c);
-      squares[c] += value * value;
-    }
-  return sqrt(squares);
-}
-
 }  // namespace
 
 PolynomialChange solve_polynomials(RadiositySolution& s, const scene::Scene& scene, const SymmetricOperator& blocks,
@@ -65,23 +48,23 @@ PolynomialChange solve_polynomials(RadiositySolution& s, const scene::Scene& sce
                               : solve_at_nodes(node_equations(settings.projection, scene, s.mesh, order, blocks, run),
                                                s, settings, channels, run);
   s.solver = fields.report;
-  s.radiosity = means(fields.radiosity, functions);
-  s.irradiance = means(fields.irradiance, functions);
-  s.coarse_radiosity = means(below.radiosity, functions);
+  s.radiosity = PolynomialField::means(fields.radiosity, functions);
+  s.irradiance = PolynomialField::means(fields.irradiance, functions);
+  s.coarse_radiosity = PolynomialField::means(below.radiosity, functions);
   s.field = PolynomialField{order,
                             functions,
                             linear ? std::vector<int>(degree.size(), order) : degree,
-                            {},
+                            bases_of(order, s.mesh.patches()),
                             fields.radiosity,
                             fields.irradiance,
                             below.radiosity};
-  for (const scene::SurfacePatch& patch : s.mesh.patches())
-    s.field->bases.emplace_back(order, patch.ring(), patch.normal());
   PolynomialChange change{fields.report.converged() && below.report.converged(), {}, {}};
   change.mean_irradiance = to_spectra(
-      (to_columns(s.irradiance, channels) - to_columns(means(below.irradiance, functions), channels)).cwiseAbs());
+      (to_columns(s.irradiance, channels) - to_columns(PolynomialField::means(below.irradiance, functions), channels))
+          .cwiseAbs());
   for (Index i = 0; i < static_cast<Index>(s.mesh.size()); ++i)
-    change.variation.push_back(of_degree(degree[static_cast<std::size_t>(i)], fields.irradiance, i, functions));
+    change.variation.push_back(
+        PolynomialField::of_degree(degree[static_cast<std::size_t>(i)], fields.irradiance, i * functions));
   return change;
 }
 

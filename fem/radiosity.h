@@ -129,7 +129,7 @@ struct RadiositySolution {
   /// |B_1 - B_h|: root mean square over the element of the iterated radiosity less B_h.
   std::vector<Spectrum> field_error;
   std::vector<Spectrum> coarse_radiosity;  ///< the solution at twice the element size: its parent's value; with
-                                           ///< polynomials the mean of that of the order below
+                                           ///< polynomials the mean of that of the order below (by rays: its own)
   std::optional<PolynomialField> field;    ///< none of constants
   std::optional<Adaptation> adaptation;    ///< of elements that were made for a goal
   std::vector<double> row_sum;             ///< sum_j F_ij

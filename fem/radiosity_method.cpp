@@ -218,6 +218,8 @@ Answer Answers::by_polynomials(const measure::PointIrradiance& asked) const {
     from_elements += of_j[0] * (rho * s_.irradiance_error[j]) +
                      rounding[j] * PolynomialField::sizes(field.radiosity, first, field.functions);
     noise.add(j, of_j[0] * rho);
+    if (field.irradiance_noise.size() > 0)
+      noise.add_own(rho * PolynomialField::independent(field.irradiance_noise, first + 1, of_j.subspan(1)));
   }
   const Spectrum difference = abs(value - below);
   Spectrum error = from_elements;
@@ -280,7 +282,7 @@ Answer Answers::radiosity_at(std::size_t i, const scene::SurfacePoint& x) const 
   if (!pixel_.gather)
     return {{s_.field ? s_.field->at(i, x.position) : s_.radiosity[i], Spectrum(),
              rho * s_.irradiance_error[i] + s_.field_error[i], Claim::estimated, 0},
-            rho * s_.irradiance_noise[i]};
+            rho * max(s_.irradiance_noise[i], s_.field ? s_.field->noise_at(i, x.position) : Spectrum::zero())};
   Answer B = at({x.position, s_.mesh.patches()[i].normal(), x.surface}, rays_in_pixels);
   B.by_itself.value = s_.exitance[i] + rho * B.by_itself.value;
   B.by_itself.standard_error *= rho;

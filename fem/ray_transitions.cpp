@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "fem/polynomial_field.h"
 #include "fem/space/polynomials.h"
 
 namespace interflect::fem {
@@ -14,8 +15,8 @@ RayTransitions::RayTransitions(std::span<const scene::SurfacePatch> patches, con
   for (const scene::SurfacePatch& patch : patches) {
     senders_.push_back({UniformMap(patch.ring()), core::frame_around(patch.normal())});
     areas_.push_back(patch.area);
-    if (order > 0) bases_.emplace_back(order, patch.ring(), patch.normal());
   }
+  if (order > 0) bases_ = bases_of(order, patches);
 }
 
 RayTransitions::Point RayTransitions::point_on(Index element, std::span<const double> u) const {

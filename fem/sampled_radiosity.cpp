@@ -14,6 +14,7 @@
 #include "fem/error_estimate.h"
 #include "fem/operator/areas_alone.h"
 #include "fem/ray_transitions.h"
+#include "fem/space/polynomials.h"
 #include "fem/specular/light_caster.h"
 #include "fem/specular/specular_chains.h"
 #include "fem/stage_clock.h"
@@ -36,9 +37,10 @@ class Sampling {
         mesh_(mesh),
         materials_(materials_of(scene, mesh.patches())),
         rays_(make_light_caster(settings.intersector, scene, seed)),
-        walks_(mesh.patches(), *rays_),
-        K_(areas_of(mesh)),
-        rho_(to_columns(materials_.reflectance, scene.channel_count()).cwiseMax(least_reflectance)),
+        walks_(mesh.patches(), *rays_, settings.order),
+        functions_(plane_functions(settings.order)),
+        K_(areas_of(mesh), functions_),
+        rho_(on_functions_of(materials_.exitance).R.cwiseMax(least_reflectance)),
         R_(rho_) {
     const std::string& instead = solvers::solver_named(settings.solver).finds_black_instead;
     if (!instead.empty() && (rho_.array() <= least_reflectance).any())
@@ -51,7 +53,7 @@ class Sampling {
 
   /// What an exitance leads to.
   RadiositySolution solved(const std::vector<Spectrum>& exitance, const solvers::StoppingRule& rule, Run& run) const {
-    const ColumnMatrix e = to_columns(exitance, scene_.channel_count());
+    const ColumnMatrix e = on_functions_of(exitance).e;
     RadiositySolution s(mesh_, element_size_of(scene_, settings_));
     s.exitance = exitance;
     s.reflectance = materials_.reflectance;
@@ -61,13 +63,18 @@ class Sampling {
     if (s.solver.why != solvers::SolverReport::Stopped::nothing_to_do && s.solver.history.empty())
       throw core::Interrupted("solve");
     const ColumnMatrix H = (state.x - e).cwiseQuotient(rho_);
-    s.irradiance = to_spectra(H);
+    s.irradiance = PolynomialField::means(H, functions_);
     for (std::size_t i = 0; i < exitance.size(); ++i)
       s.radiosity.push_back(exitance[i] + s.reflectance[i] * s.irradiance[i]);
-    set_noise(s, state);
-    estimate_errors_alone(s, {}, Spectrum::zero(),
-                          [&](std::span<const Spectrum> sent) { return arriving_by_rays(walks_, sent, run); });
-    s.coarse_radiosity = means_of_fours(mesh_, s.radiosity);
+    const ColumnMatrix noise = noise_of(s, state);
+    if (settings_.order > 0) {
+      set_field(s, e, H, noise);
+      estimate_errors_of_polynomials_alone(s, added_by_rays(walks_, *s.field, run));
+    } else {
+      estimate_errors_alone(s, {}, Spectrum::zero(),
+                            [&](std::span<const Spectrum> sent) { return arriving_by_rays(walks_, sent, run); });
+    }
+    s.coarse_radiosity = settings_.order > 0 ? s.radiosity : means_of_fours(mesh_, s.radiosity);
     s.pairs.rays = static_cast<std::uint64_t>(s.solver.rows());
     s.bytes = 8.0 * static_cast<double>(e.size()) * settings_.solver_settings.replications;
     return s;
@@ -80,25 +87,57 @@ class Sampling {
     return areas;
   }
 
-  /// Standard errors of irradiance, and what of them is one and the same deviation in all: with x = rho H + e, the sum
-  /// S of G x varies by  Var S = sum (G rho)² own² + (sum G rho)² shared².
-  void set_noise(RadiositySolution& s, const solvers::SolverState& state) const {
-    const Index n = rho_.rows();
-    ColumnMatrix noise = ColumnMatrix::Zero(n, rho_.cols());
-    if (state.standard_error.size() > 0) noise = state.standard_error.cwiseQuotient(rho_);
-    const Eigen::Map<const Eigen::ArrayXd> G(K_.gram().data(), n);
-    for (Index c = 0; c < noise.cols() && state.standard_error.size() > 0; ++c) {
-      const double of_a_ray = (G * state.x.col(c).array()).sum() / std::max(1.0, s.solver.rows());
-      const auto known = noise.col(c).array() > 0;
-      noise.col(c) = known.select(noise.col(c).array(), of_a_ray / G).matrix();
-      const Eigen::ArrayXd reflecting = G * rho_.col(c).array();
-      const double alone = (reflecting * noise.col(c).array()).square().sum(), all = core::ordered_sum(reflecting),
-                   together = state.power_error(c) * state.power_error(c);
-      const double shared = std::sqrt(std::max(0.0, (together - alone) / (all * all - reflecting.square().sum())));
-      s.shared_noise[static_cast<int>(c)] = std::isfinite(shared) ? shared : 0;
-      noise.col(c) = noise.col(c).cwiseMax(s.shared_noise[static_cast<int>(c)]);
+  MaterialColumns on_functions_of(const std::vector<Spectrum>& exitance) const {
+    const std::vector<int> degree(exitance.size(), settings_.order);
+    return on_functions(exitance, materials_.reflectance, scene_.channel_count(), degree, functions_);
+  }
+
+  /// Standard errors of irradiance's coefficients; of the solution those of means, and what of them is one and the same
+  /// deviation in all: with x = rho H + e, the sum S of A x over first functions varies by
+  /// Var S = sum (A rho)² own² + (sum A rho)² shared².
+  ColumnMatrix noise_of(RadiositySolution& s, const solvers::SolverState& state) const {
+    ColumnMatrix noise = ColumnMatrix::Zero(rho_.rows(), rho_.cols());
+    if (state.standard_error.size() > 0) {
+      noise = state.standard_error.cwiseQuotient(rho_);
+      for (Index c = 0; c < noise.cols(); ++c) set_noise_of_column(noise, c, s, state);
     }
-    s.irradiance_noise = to_spectra(noise);
+    s.irradiance_noise = PolynomialField::means(noise, functions_);
+    return noise;
+  }
+
+  /// Where no ray told, what one brings.
+  void set_noise_of_column(ColumnMatrix& noise, Index c, RadiositySolution& s,
+                           const solvers::SolverState& state) const {
+    const Eigen::Map<const Eigen::ArrayXd> G(K_.gram().data(), rho_.rows());
+    const auto first = Eigen::seqN(Index{0}, static_cast<Index>(mesh_.patches().size()), functions_);
+    const double of_a_ray =
+        core::ordered_sum(Eigen::ArrayXd((G * state.x.col(c).array())(first))) / std::max(1.0, s.solver.rows());
+    const auto known = noise.col(c).array() > 0;
+    noise.col(c) = known.select(noise.col(c).array(), of_a_ray / G).matrix();
+    const Eigen::ArrayXd reflecting = (G * rho_.col(c).array())(first), own = noise.col(c).array()(first);
+    const double alone = core::ordered_sum((reflecting * own).square()), all = core::ordered_sum(reflecting),
+                 together = state.power_error(c) * state.power_error(c);
+    double shared = std::sqrt(std::max(0.0, (together - alone) / (all * all - core::ordered_sum(reflecting.square()))));
+    if (!std::isfinite(shared)) shared = 0;
+    s.shared_noise[static_cast<int>(c)] = shared;
+    for (Index i = 0; i < noise.rows(); i += functions_) noise(i, c) = std::max(noise(i, c), shared);
+  }
+
+  /// Polynomials, the order below being the same without the highest degree.
+  void set_field(RadiositySolution& s, const ColumnMatrix& e, const ColumnMatrix& H, const ColumnMatrix& noise) const {
+    const ColumnMatrix radiosity = e + on_functions_of(s.exitance).R.cwiseProduct(H);
+    ColumnMatrix below = radiosity;
+    const Index kept = plane_functions(settings_.order - 1);
+    for (Index first = 0; first < below.rows(); first += functions_)
+      below.middleRows(first + kept, functions_ - kept).setZero();
+    s.field = PolynomialField{settings_.order,
+                              functions_,
+                              std::vector<int>(mesh_.patches().size(), settings_.order),
+                              bases_of(settings_.order, mesh_.patches()),
+                              radiosity,
+                              H,
+                              std::move(below),
+                              noise};
   }
 
   const scene::Scene& scene_;
@@ -107,6 +146,7 @@ class Sampling {
   ElementMaterials materials_;
   std::unique_ptr<raycast::RayCaster> rays_;
   RayTransitions walks_;
+  Index functions_;  ///< of an element
   AreasAlone K_;
   ColumnMatrix rho_;
   solvers::Reflection R_;
@@ -168,8 +208,6 @@ void require_sampled(const RadiositySettings& settings) {
   const auto refuse = [&](const std::string& what) {
     throw core::InputError("solver '" + settings.solver + "', which needs no matrix", "it does not go with " + what);
   };
-  if (settings.order > 0)
-    refuse(core::format("polynomials of order %d here; compare-solvers has them", settings.order));
   if (settings.projection != Projection::galerkin) refuse("values at nodes");
   if (settings.adaptive) refuse("elements made for a goal");
   if (settings.closure != "none") refuse("a closure that is restored: there are no form factors");
@@ -209,7 +247,8 @@ RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySet
 Forecast forecast_of_sampling(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
   const mesh::ElementMesh mesh = mesh_of(scene, settings);
   const Sampling sampling(scene, settings, mesh, run.seed);
-  const double a_column = 8.0 * scene.channel_count() * (settings.solver_settings.replications + 4);
+  const double a_column =
+      8.0 * scene.channel_count() * plane_functions(settings.order) * (settings.solver_settings.replications + 4);
   const double solves = settings.light_groups ? 1.0 + static_cast<double>(measure::light_groups(scene).size()) : 1.0;
   const auto elements = static_cast<double>(mesh.size());
   return {elements, elements * (bytes_of_an_element + a_column),

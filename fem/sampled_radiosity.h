@@ -4,15 +4,17 @@
 
 namespace interflect::fem {
 
-/// Radiosity of constants by a solver that samples (solvers/solver.h, Needs::walks and what is more but a target): rays
-/// alone, no form factors and no matrix, so that memory and time grow with elements and not with their pairs.
+/// Radiosity of constants, or of polynomials, by a solver that samples (solvers/solver.h, Needs::walks and what is more
+/// but a target): rays alone, no form factors and no matrix, so that memory and time grow with elements and not with
+/// their pairs.
 ///
 /// Irradiance is b - e over rho; of elements that reflect nothing it is found by letting them reflect 1e-9 of it.  Its
 /// noise is that of the solver's replications, which all share as far as the power of the whole room varies by more
 /// than its parts do alone; an element that no ray found has the noise of what one ray brings.  Its error is estimated
-/// as without a matrix (error_estimate.h).  What closed rooms lose to seams of the geometry is in the energy balance.
+/// as without a matrix (error_estimate.h).  Coefficients of polynomials have standard errors of their own, and the order
+/// below is what is left without the highest degree: it is not solved for.  What closed rooms lose to seams of the geometry is in the energy balance.
 /// Test: tests/fem/sampled_radiosity.cpp
-/// @throws core::InputError   other settings than constants on elements of one size; what the solver cannot have
+/// @throws core::InputError   other settings than functions on elements of one size; what the solver cannot have
 /// @throws core::Interrupted  before there are estimates
 RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);
 

@@ -20,6 +20,9 @@ class SumNoise {
     shared_ += weight * of_.shared_noise;
   }
 
+  /// Independent of all others.
+  void add_own(const Spectrum& standard_error) { own_ += standard_error * standard_error; }
+
   /// Of elements that do not see each other: what is their own is independent.
   Spectrum apart() const { return root(own_ + shared_ * shared_); }
 

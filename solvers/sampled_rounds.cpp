@@ -49,6 +49,17 @@ double target_noise(const System& system, SolverState& state, const Replications
   return largest;
 }
 
+/// w of w^T x, the power of all elements: G of their first functions, which are constant.
+std::vector<double> power_weights(const System& system) {
+  const std::vector<Index>& first = system.K.layout().first_of_element;
+  std::vector<double> w(static_cast<std::size_t>(system.e.rows()), 0.0);
+  for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+    const auto a = static_cast<std::size_t>(first[i]);
+    w[a] = system.K.gram()[a];
+  }
+  return w;
+}
+
 void nothing_yet(const System& system, SolverState& state) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   state.x = system.e;
@@ -69,6 +80,7 @@ SolverReport sample_in_rounds(const System& system, SolverState& state, const St
   const RoundStop stop(iterations);
   std::uint64_t done = 0, next = rounds.first;
   double drawn = 0;
+  const std::vector<double> of_power = power_weights(system);
   RoundProgress progress(run.progress);
   if (most > 0) progress.expect(static_cast<double>(most));
   for (bool more = true; more; next = 2 * done) {
@@ -87,7 +99,7 @@ SolverReport sample_in_rounds(const System& system, SolverState& state, const St
     done = next;
     ColumnMatrix x = system.e + replications.mean(static_cast<double>(done));
     state.standard_error = replications.standard_error(static_cast<double>(done));
-    state.power_error = replications.weighed(system.K.gram(), static_cast<double>(done)).second;
+    state.power_error = replications.weighed(of_power, static_cast<double>(done)).second;
     for (const Index i : rounds.unanswered)
       state.standard_error.row(i).setConstant(std::numeric_limits<double>::infinity());
     drawn += static_cast<double>(draws);

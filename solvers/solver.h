@@ -62,7 +62,7 @@ struct SolverState {
   int step = 0;
   ColumnMatrix residual{};           ///< e + R G^-1 K x - x, of solvers that keep it: what is not shot yet
   ColumnMatrix standard_error{};     ///< of x, of solvers that sample
-  Eigen::RowVectorXd power_error{};  ///< the same of sum_a G_a x_a, whatever the correlations of unknowns are
+  Eigen::RowVectorXd power_error{};  ///< the same of sum G x over elements' first functions: their power
   /// J of every column where a target is asked for, and its standard error: of solvers that sample.
   Eigen::RowVectorXd target{}, target_error{};
   std::function<void(const SolverState&, const SolverReport&)> observer{};  ///< told after every iteration, if any

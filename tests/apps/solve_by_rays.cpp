@@ -48,14 +48,38 @@ TEST(Solve, is_done_by_rays_alone) {
                   "regular-stochastic-jacobi", "--noise", "3%", "--threads", "3", "-o", folder / "again"});
   EXPECT_EQ(read_file(folder / "out/surfaces.csv"), read_file(folder / "again/surfaces.csv"));
   const Outcome refused = interflect(
-      {"solve", shipped_scene("cornell_box"), "--solver", "stochastic-jacobi", "--order", "1", "-o", folder / "no"});
+      {"solve", shipped_scene("cornell_box"), "--solver", "shooting-collision", "--order", "1", "-o", folder / "no"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(contains(refused.err, "polynomials of order 1")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "constants on elements expected; use 'stochastic-jacobi' here")) << refused.err;
   const Outcome stopped =
       interflect({"solve", shipped_scene("cornell_box"), "--element-size", "0.2", "--solver", "shooting-collision",
                   "--noise", "0.001%", "--max-time", "3s", "--no-pictures", "-o", folder / "stopped"});
   EXPECT_TRUE(contains(stopped.out, "out of time")) << stopped.out;
   EXPECT_TRUE(std::filesystem::exists(folder / "stopped/solution.vtu"));
+}
+
+// Polynomials of order 1 and 2 by rays: the goal within what both state of it, and a picture of the field.
+TEST(Solve, has_polynomials_by_rays) {
+  const TemporaryFolder folder;
+  const auto plane_of = [&](const std::vector<std::string>& how) {
+    std::vector<std::string> command{"solve",       shipped_scene("cornell_box"), "--element-size", "0.3", "-o",
+                                     folder / "out"};
+    command.insert(command.end(), how.begin(), how.end());
+    const Outcome solved = interflect(command);
+    EXPECT_EQ(solved.status, 0) << solved.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/irradiance.png"));
+    const json summary = json::parse(read_file(folder / "out/summary.json"));
+    for (const json& sensor : summary.at("sensors"))
+      if (sensor.at("name") == "plane_400") return std::pair<double, double>(sensor.at("mean"), sensor.at("error"));
+    return std::pair<double, double>();
+  };
+  for (const char* order : {"1", "2"}) {
+    const auto [exact, exact_error] = plane_of({"--order", order});
+    const auto [found, error] = plane_of({"--order", order, "--solver", "regular-stochastic-jacobi", "--noise", "2%"});
+    EXPECT_GT(exact, 0);
+    EXPECT_NEAR(found, exact, error + exact_error) << order;
+    EXPECT_LT(error, .1 * exact) << order;
+  }
 }
 
 // What time cut off is had again by the steps that its record says: of iterations, and of rounds of samples.
