@@ -165,7 +165,7 @@ class Artist {
     settings.paths = of.paths;
     settings.solution = solution_;
     core::Progress progress(run_.progress, "pictures: " + integrator + but(of));
-    Run labelled{run_.seed, run_.threads, progress, run_.stop};
+    Run labelled{run_.seed, run_.threads, progress, run_.stop, run_.late};
     Rendering picture = montecarlo::render(scene_, camera_, settings, labelled, *rays_);
     if (!picture.complete)
       core::log::warning(core::format("stopped: the picture by %s%s has %llu samples a pixel", integrator.c_str(),

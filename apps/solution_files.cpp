@@ -357,9 +357,8 @@ std::string solution_text(const SolvedScene& solved) {
   text += irradiance_text(solved);
   if (s.row_sum.empty() && !s.solver.history.empty())
     text += core::format(
-        "            no matrix tells what smaller elements would change: what %s\n            stands for it, which "
-        "more "
-        "rays do not lower\n",
+        "            no matrix tells what smaller elements would change: what %s\n"
+        "            stands for it, which more rays do not lower\n",
         s.field ? "polynomials of the highest degree bring" : "light varies by inside these");
   if (solved.bounds) text += bounds_text(solved, *solved.bounds);
   if (solved.residual) text += residual_text(solved, *solved.residual);

@@ -58,7 +58,7 @@ std::vector<std::string> blind_sensors(const SolvedScene& solved) {
   return warnings;
 }
 
-/// The part of the surfaces on which polynomials dip below 0, by elements' corners.
+/// The part of the surfaces on which polynomials dip below 0 by more than their noise, by elements' corners.
 double negative_share(const SolvedScene& solved) {
   const fem::RadiositySolution& s = solved.solution;
   double area = 0, negative = 0;
@@ -66,7 +66,7 @@ double negative_share(const SolvedScene& solved) {
     const scene::SurfacePatch& patch = s.mesh.patches()[i];
     area += patch.area;
     for (const Vec3& x : patch.ring())
-      if (solved.scene.weigh(s.field->irradiance_at(i, x)) < 0)
+      if (solved.scene.weigh(s.field->irradiance_at(i, x) + normal_95 * s.field->noise_at(i, x)) < 0)
         negative += patch.area / static_cast<double>(patch.ring().size());
   }
   return area > 0 ? negative / area : 0;

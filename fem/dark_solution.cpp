@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "fem/element_materials.h"
 #include "fem/energy.h"
-#include "fem/goal/adaptive_elements.h"
 #include "fem/space/polynomials.h"
 #include "fem/specular/light_caster.h"
 #include "fem/specular/specular_chains.h"
@@ -14,26 +13,31 @@
 namespace interflect::fem {
 namespace {
 
-mesh::ElementMesh mesh_of(const scene::Scene& scene, const RadiositySettings& settings) {
-  return settings.adaptive ? first_elements(scene, settings, *settings.adaptive) : elements_alone(scene, settings);
-}
+Index functions_of(const RadiositySettings& settings) { return plane_functions(settings.order); }
 
 /// The one pass that elements had.
 Adaptation adaptation_of(const RadiositySettings& settings, Index elements) {
   AdaptivePass pass{};
   pass.elements = elements;
-  pass.unknowns = elements * plane_functions(settings.order);
+  pass.unknowns = elements * functions_of(settings);
   return {settings.adaptive->goal, {pass}, AdaptiveStop::no_light};
 }
 
+PolynomialField zero_field(const RadiositySolution& s, int order, int channels) {
+  const Index elements = s.mesh.size(), functions = plane_functions(order);
+  const solvers::ColumnMatrix zero = solvers::ColumnMatrix::Zero(elements * functions, channels);
+  return {order, functions, std::vector<int>(s.radiosity.size(), order), bases_of(order, s.mesh.patches()), zero,
+          zero,  zero};
+}
+
 RadiositySolution zero_on(mesh::ElementMesh mesh, const scene::Scene& scene, const RadiositySettings& settings) {
-  const double size = settings.adaptive ? mesh.longest_edge() : element_size_of(scene, settings);
-  RadiositySolution s(std::move(mesh), size);
+  RadiositySolution s(std::move(mesh), element_size_of(scene, settings));
   s.reflectance = materials_of(scene, s.mesh.patches()).reflectance;
   for (auto* of_elements : {&s.exitance, &s.radiosity, &s.irradiance, &s.irradiance_error, &s.irradiance_noise,
                             &s.field_error, &s.coarse_radiosity})
     of_elements->assign(s.mesh.patches().size(), Spectrum::zero());
   s.solver.why = solvers::SolverReport::Stopped::nothing_to_do;
+  if (settings.order > 0) s.field = zero_field(s, order_of_blocks(settings, s.mesh.patches()), scene.channel_count());
   if (settings.adaptive) s.adaptation = adaptation_of(settings, s.mesh.size());
   return s;
 }
@@ -51,7 +55,7 @@ bool is_dark(const scene::Scene& scene) {
 RadiositySolution dark_solution(const scene::Scene& scene, const RadiositySettings& settings, Run& run) {
   std::vector<StageCost> stages;
   StageClock timed(stages);
-  mesh::ElementMesh mesh = timed("mesh", [&] { return mesh_of(scene, settings); });
+  mesh::ElementMesh mesh = timed("mesh", [&] { return elements_alone(scene, settings); });
   if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
   const auto rays = timed("ray tree", [&] { return make_light_caster(settings.intersector, scene, run.seed); });
   require_outside_glass(scene, mesh.patches(), *raycast::make_ray_caster(settings.intersector, scene), run);
@@ -66,7 +70,7 @@ RadiositySolution dark_solution(const scene::Scene& scene, const RadiositySettin
 }
 
 Forecast forecast_of_darkness(const scene::Scene& scene, const RadiositySettings& settings) {
-  const auto elements = static_cast<double>(mesh_of(scene, settings).size());
+  const auto elements = static_cast<double>(elements_alone(scene, settings).size());
   return {elements, elements * bytes_of_an_element, 0};
 }
 

@@ -159,29 +159,18 @@ mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings
   return mesh;
 }
 
-mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySettings& settings) {
-  const double size = element_size_of(scene, settings), bytes = bytes_an_element * predicted_elements(scene, size);
+mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySettings& settings, double bytes_of_each) {
+  const double size = element_size_of(scene, settings), bytes = bytes_of_each * predicted_elements(scene, size);
   if (bytes > settings.max_memory)
     throw core::InputError(
         core::format("elements of %g m need %s, more than the %s allowed: --element-size %g or more would fit", size,
                      core::format_bytes(bytes).c_str(), core::format_bytes(settings.max_memory).c_str(),
-                     size_for(scene, settings.max_memory / bytes_an_element / 1.2)));
+                     size_for(scene, settings.max_memory / bytes_of_each / 1.2)));
   return mesh::quartered(mesh::uniform(scene, 2.0 * size, scene::is_diffuse_side));
 }
 
-/// Of a scene that is solved channel by channel.
-static Forecast of_all_channels(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
-  Forecast all = forecast(in_one_channel(scene, 0), settings, run);
-  all.seconds *= scene.channel_count();
-  return all;
-}
-
-Forecast forecast(const scene::Scene& scene, const RadiositySettings& given, const Run& run) {
-  const RadiositySettings settings = with_mirrors_seen(scene, given);
-  require_solvable(scene, settings);
-  require_compatible(settings);
-  if (is_dark(scene)) return forecast_of_darkness(scene, settings);
-  if (any_smooth(scene) && !are_smooth_ones_grey(scene)) return of_all_channels(scene, settings, run);
+/// Whether there is light or not: also of one channel of several.
+static Forecast forecast_one_way(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
   if (solvers::solver_named(settings.solver).samples()) return forecast_of_sampling(scene, settings, run);
   const mesh::ElementMesh mesh = settings.adaptive ? first_elements(scene, settings, *settings.adaptive)
                                                    : elements_of(scene, settings);  // little beside what is forecast
@@ -192,6 +181,22 @@ Forecast forecast(const scene::Scene& scene, const RadiositySettings& given, con
   const double solve =
       30.0 * pairs * 1e-9 * scene.channel_count();  // about thirty sweeps over the matrix, memory bound
   return {elements, assembly.bytes, assembly.seconds / run.threads.count() + solve};
+}
+
+/// Of a scene that is solved channel by channel.
+static Forecast of_all_channels(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
+  Forecast all = forecast_one_way(in_one_channel(scene, 0), settings, run);
+  all.seconds *= scene.channel_count();
+  return all;
+}
+
+Forecast forecast(const scene::Scene& scene, const RadiositySettings& given, const Run& run) {
+  const RadiositySettings settings = with_mirrors_seen(scene, given);
+  require_solvable(scene, settings);
+  require_compatible(settings);
+  if (is_dark(scene)) return forecast_of_darkness(scene, settings);
+  if (any_smooth(scene) && !are_smooth_ones_grey(scene)) return of_all_channels(scene, settings, run);
+  return forecast_one_way(scene, settings, run);
 }
 
 }  // namespace interflect::fem

@@ -1,5 +1,7 @@
 #include "fem/polynomial_field.h"
 
+#include <cmath>
+
 #include "fem/columns.h"
 #include "fem/space/polynomials.h"
 
@@ -18,21 +20,20 @@ Spectrum PolynomialField::sizes(const solvers::ColumnMatrix& coefficients, Index
   return sum;
 }
 
-Spectrum PolynomialField::independent(const solvers::ColumnMatrix& coefficients, Index first,
-                                      std::span<const double> w) {
-  Spectrum squares;
+Spectrum PolynomialField::at_most(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w) {
+  Spectrum sum;
   for (std::size_t a = 0; a < w.size(); ++a)
-    for (int c = 0; c < coefficients.cols(); ++c) {
-      const double each = w[a] * coefficients(first + static_cast<Index>(a), c);
-      squares[c] += each * each;
-    }
-  return sqrt(squares);
+    for (int c = 0; c < coefficients.cols(); ++c)
+      sum[c] += std::abs(w[a] * coefficients(first + static_cast<Index>(a), c));
+  return sum;
 }
 
 Spectrum PolynomialField::of_degree(int degree, const solvers::ColumnMatrix& coefficients, Index first) {
-  const Index below = degree > 0 ? plane_functions(degree - 1) : 0;
-  const std::vector<double> ones(static_cast<std::size_t>(plane_functions(degree) - below), 1.0);
-  return independent(coefficients, first + below, ones);
+  const Index below = degree > 0 ? plane_functions(degree - 1) : 0, functions = plane_functions(degree);
+  Spectrum sizes;
+  for (int c = 0; c < coefficients.cols(); ++c)
+    sizes[c] = coefficients.col(c).segment(first + below, functions - below).norm();
+  return sizes;
 }
 
 std::vector<Spectrum> PolynomialField::means(const solvers::ColumnMatrix& coefficients, Index functions) {
@@ -51,8 +52,8 @@ std::vector<PlaneBasis> bases_of(int order, std::span<const scene::SurfacePatch>
 Spectrum PolynomialField::noise_at(std::size_t element, const Vec3& x) const {
   if (irradiance_noise.size() == 0) return Spectrum::zero();
   const PlaneBasis::Values N = bases[element].at(x);
-  return independent(irradiance_noise, static_cast<Index>(element) * functions,
-                     {N.data(), static_cast<std::size_t>(functions)});
+  return at_most(irradiance_noise, static_cast<Index>(element) * functions,
+                 {N.data(), static_cast<std::size_t>(functions)});
 }
 
 Spectrum PolynomialField::value(const solvers::ColumnMatrix& coefficients, std::size_t element, const Vec3& x) const {

@@ -33,7 +33,8 @@ struct PolynomialField {
   Spectrum added_at(std::size_t element, const Vec3& x) const {
     return at(element, x) - value(radiosity_below, element, x);
   }
-  /// Standard error of irradiance at a point that sampled coefficients have; 0 where none were.
+  /// Standard error of irradiance at a point that sampled coefficients have, sum_a |N_a| of theirs: no less than true,
+  /// however they are correlated, as they are where light falls on one end of an element.  0 where none were sampled.
   Spectrum noise_at(std::size_t element, const Vec3& x) const;
   /// Root mean square of irradiance in an element about its mean.
   Spectrum irradiance_variation(std::size_t element) const;
@@ -41,8 +42,8 @@ struct PolynomialField {
   static Spectrum weighed(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
   /// sum_a |c_a| of an element's.
   static Spectrum sizes(const solvers::ColumnMatrix& coefficients, Index first, Index functions);
-  /// sqrt(sum_a w_a² c_a²): of standard errors, that of what is weighed.
-  static Spectrum independent(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
+  /// sum_a |w_a c_a|.
+  static Spectrum at_most(const solvers::ColumnMatrix& coefficients, Index first, std::span<const double> w);
   /// sqrt(sum c_a²) of functions of one degree: their root mean square on an element.
   static Spectrum of_degree(int degree, const solvers::ColumnMatrix& coefficients, Index first);
   /// Of elements: coefficients of their first functions.

@@ -64,7 +64,8 @@ mesh::ElementMesh elements_of(const scene::Scene& scene, const RadiositySettings
 constexpr double bytes_of_an_element = 4000;
 
 /// The same where no matrix is stored: by what elements carry themselves.
-mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySettings& settings);
+mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySettings& settings,
+                                 double bytes_of_each = bytes_of_an_element);
 
 /// Of the polynomials that K is made for; between the corners of quads one that holds what is bilinear.
 int order_of_blocks(const RadiositySettings& settings, std::span<const scene::SurfacePatch> patches);

@@ -217,9 +217,10 @@ Answer Answers::by_polynomials(const measure::PointIrradiance& asked) const {
     const Spectrum rho = s_.reflectance[j];
     from_elements += of_j[0] * (rho * s_.irradiance_error[j]) +
                      rounding[j] * PolynomialField::sizes(field.radiosity, first, field.functions);
-    noise.add(j, of_j[0] * rho);
     if (field.irradiance_noise.size() > 0)
-      noise.add_own(rho * PolynomialField::independent(field.irradiance_noise, first + 1, of_j.subspan(1)));
+      noise.add(j, of_j[0] * rho, rho * PolynomialField::at_most(field.irradiance_noise, first + 1, of_j.subspan(1)));
+    else
+      noise.add(j, of_j[0] * rho);
   }
   const Spectrum difference = abs(value - below);
   Spectrum error = from_elements;

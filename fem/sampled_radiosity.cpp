@@ -62,13 +62,13 @@ class Sampling {
                    ->advance({K_, R_, e, &walks_}, state, rule, run);
     if (s.solver.why != solvers::SolverReport::Stopped::nothing_to_do && s.solver.history.empty())
       throw core::Interrupted("solve");
-    const ColumnMatrix H = (state.x - e).cwiseQuotient(rho_);
+    ColumnMatrix H = (state.x - e).cwiseQuotient(rho_);
     s.irradiance = PolynomialField::means(H, functions_);
     for (std::size_t i = 0; i < exitance.size(); ++i)
       s.radiosity.push_back(exitance[i] + s.reflectance[i] * s.irradiance[i]);
-    const ColumnMatrix noise = noise_of(s, state);
+    ColumnMatrix noise = noise_of(s, state);
     if (settings_.order > 0) {
-      set_field(s, e, H, noise);
+      set_field(s, e, std::move(H), std::move(noise));
       estimate_errors_of_polynomials_alone(s, added_by_rays(walks_, *s.field, run));
     } else {
       estimate_errors_alone(s, {}, Spectrum::zero(),
@@ -124,8 +124,8 @@ class Sampling {
   }
 
   /// Polynomials, the order below being the same without the highest degree.
-  void set_field(RadiositySolution& s, const ColumnMatrix& e, const ColumnMatrix& H, const ColumnMatrix& noise) const {
-    const ColumnMatrix radiosity = e + on_functions_of(s.exitance).R.cwiseProduct(H);
+  void set_field(RadiositySolution& s, const ColumnMatrix& e, ColumnMatrix H, ColumnMatrix noise) const {
+    ColumnMatrix radiosity = e + on_functions_of(s.exitance).R.cwiseProduct(H);
     ColumnMatrix below = radiosity;
     const Index kept = plane_functions(settings_.order - 1);
     for (Index first = 0; first < below.rows(); first += functions_)
@@ -134,10 +134,10 @@ class Sampling {
                               functions_,
                               std::vector<int>(mesh_.patches().size(), settings_.order),
                               bases_of(settings_.order, mesh_.patches()),
-                              radiosity,
-                              H,
+                              std::move(radiosity),
+                              std::move(H),
                               std::move(below),
-                              noise};
+                              std::move(noise)};
   }
 
   const scene::Scene& scene_;
@@ -152,8 +152,18 @@ class Sampling {
   solvers::Reflection R_;
 };
 
+/// Of an element while it is solved, and of its functions, which are kept of every group.
+double bytes_of_each(const scene::Scene& scene, const RadiositySettings& settings) {
+  constexpr double while_solved = 8, kept = 4;  // columns beside those of replications; of a field
+  const double solutions = settings.light_groups ? 1.0 + static_cast<double>(measure::light_groups(scene).size()) : 1.0;
+  const double a_column = 8.0 * scene.channel_count() * plane_functions(settings.order);
+  double bytes = bytes_of_an_element + a_column * (settings.solver_settings.replications + while_solved);
+  if (settings.order > 0) bytes += solutions * (kept * a_column + sizeof(PlaneBasis));
+  return bytes;
+}
+
 mesh::ElementMesh mesh_of(const scene::Scene& scene, const RadiositySettings& settings) {
-  mesh::ElementMesh mesh = elements_alone(scene, settings);
+  mesh::ElementMesh mesh = elements_alone(scene, settings, bytes_of_each(scene, settings));
   if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
   return mesh;
 }
@@ -208,6 +218,8 @@ void require_sampled(const RadiositySettings& settings) {
   const auto refuse = [&](const std::string& what) {
     throw core::InputError("solver '" + settings.solver + "', which needs no matrix", "it does not go with " + what);
   };
+  if (settings.order > 0 && !solvers::solver_named(settings.solver).knows_polynomials)
+    refuse(core::format("polynomials of order %d: 'stochastic-jacobi' would do", settings.order));
   if (settings.projection != Projection::galerkin) refuse("values at nodes");
   if (settings.adaptive) refuse("elements made for a goal");
   if (settings.closure != "none") refuse("a closure that is restored: there are no form factors");
@@ -247,11 +259,9 @@ RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySet
 Forecast forecast_of_sampling(const scene::Scene& scene, const RadiositySettings& settings, const Run& run) {
   const mesh::ElementMesh mesh = mesh_of(scene, settings);
   const Sampling sampling(scene, settings, mesh, run.seed);
-  const double a_column =
-      8.0 * scene.channel_count() * plane_functions(settings.order) * (settings.solver_settings.replications + 4);
   const double solves = settings.light_groups ? 1.0 + static_cast<double>(measure::light_groups(scene).size()) : 1.0;
   const auto elements = static_cast<double>(mesh.size());
-  return {elements, elements * (bytes_of_an_element + a_column),
+  return {elements, elements * bytes_of_each(scene, settings),
           solves * seconds_of_a_solve(sampling, settings.stopping, run)};
 }
 

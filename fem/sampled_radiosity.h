@@ -14,7 +14,8 @@ namespace interflect::fem {
 /// as without a matrix (error_estimate.h).  Coefficients of polynomials have standard errors of their own, and the order
 /// below is what is left without the highest degree: it is not solved for.  What closed rooms lose to seams of the geometry is in the energy balance.
 /// Test: tests/fem/sampled_radiosity.cpp
-/// @throws core::InputError   other settings than functions on elements of one size; what the solver cannot have
+/// @pre  require_sampled
+/// @throws core::InputError   too little memory; what the solver cannot have
 /// @throws core::Interrupted  before there are estimates
 RadiositySolution sample_radiosity(const scene::Scene& scene, const RadiositySettings& settings, Run& run);
 

@@ -20,8 +20,12 @@ class SumNoise {
     shared_ += weight * of_.shared_noise;
   }
 
-  /// Independent of all others.
-  void add_own(const Spectrum& standard_error) { own_ += standard_error * standard_error; }
+  /// @param beside  standard error of what goes with the element's own, however it does
+  void add(std::size_t element, const Spectrum& weight, const Spectrum& beside) {
+    const Spectrum own = weight * root(of_.own_variance(element)) + beside;
+    own_ += own * own;
+    shared_ += weight * of_.shared_noise;
+  }
 
   /// Of elements that do not see each other: what is their own is independent.
   Spectrum apart() const { return root(own_ + shared_ * shared_); }

@@ -138,7 +138,8 @@ class Comparing {
                                 static_cast<std::uint64_t>(count));
     std::vector<std::vector<Estimate>> again;
     for (int k = 0; k < count && !run_.stop.stop_requested(); ++k) {
-      Run other{core::derived_seed(run_.seed, "replication " + std::to_string(k)), run_.threads, quiet, run_.stop};
+      Run other{core::derived_seed(run_.seed, "replication " + std::to_string(k)), run_.threads, quiet, run_.stop,
+                run_.late};
       again.push_back(integrator->answer(scene_, asked_, other));
       stage.advance();
     }
@@ -166,7 +167,7 @@ class Comparing {
     settings.paths = paths;
     settings.report = &of.report;
     core::Progress progress(run_.progress, step);
-    Run labelled{run_.seed, run_.threads, progress, run_.stop};
+    Run labelled{run_.seed, run_.threads, progress, run_.stop, run_.late};
     of.found = make_integrator(name, settings)->answer(scene_, asked_, labelled);
     return of;
   }

@@ -97,6 +97,7 @@ struct SolverEntry {
   std::unique_ptr<RadiositySolver> (*make)(const SolverSettings&);
   /// Of one that finds nothing of what reflects nothing, scored as it is where walks go on: who does.  Empty: it does.
   std::string finds_black_instead{};
+  bool knows_polynomials = false;  ///< of those that sample: not constants alone
 };
 const std::vector<SolverEntry>& known_solvers();
 /// @throws core::InputError with the names known

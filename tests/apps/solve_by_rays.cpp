@@ -50,7 +50,7 @@ TEST(Solve, is_done_by_rays_alone) {
   const Outcome refused = interflect(
       {"solve", shipped_scene("cornell_box"), "--solver", "shooting-collision", "--order", "1", "-o", folder / "no"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(contains(refused.err, "constants on elements expected; use 'stochastic-jacobi' here")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "polynomials of order 1: 'stochastic-jacobi' would do")) << refused.err;
   const Outcome stopped =
       interflect({"solve", shipped_scene("cornell_box"), "--element-size", "0.2", "--solver", "shooting-collision",
                   "--noise", "0.001%", "--max-time", "3s", "--no-pictures", "-o", folder / "stopped"});

@@ -87,6 +87,8 @@ TEST(DarkSolution, has_elements_for_a_goal_in_one_pass) {
   EXPECT_EQ(s.adaptation->why, AdaptiveStop::no_light);
   ASSERT_EQ(s.adaptation->passes.size(), 1u);
   EXPECT_EQ(s.adaptation->passes[0].unknowns, 6 * s.mesh.size());
+  ASSERT_TRUE(s.field.has_value());
+  EXPECT_TRUE(s.field->at(0, s.mesh.patches()[0].centroid()).is_zero());
 }
 
 // What does not go together is refused in the dark too.

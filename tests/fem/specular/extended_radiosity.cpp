@@ -114,6 +114,26 @@ TEST(ExtendedRadiosity, same_bits_for_any_threads) {
     EXPECT_EQ(solved_by_rays(scene, .5, 1024, threads).irradiance, one.irradiance) << threads;
 }
 
+// Light in the second channel alone is light: the first is forecast and solved as it is where there is some.
+TEST(ExtendedRadiosity, is_not_dark_with_light_in_one_channel) {
+  scene::Scene scene = coloured();
+  for (scene::Material& material : scene.materials) material.exitance[0] = 0;
+  RadiositySettings settings;
+  settings.element_size = .5;
+  core::LocalRun run(1, 2);
+  const Forecast of_one = forecast(scene, settings, run.get()), of_both = forecast(coloured(), settings, run.get());
+  EXPECT_EQ(of_one.elements, of_both.elements);
+  EXPECT_EQ(of_one.bytes, of_both.bytes);
+  EXPECT_GT(of_one.seconds, .05 * of_both.seconds);
+  const RadiositySolution one = solved_by_rays(scene, .5, 1024), both = solved_by_rays(coloured(), .5, 1024);
+  ASSERT_EQ(one.irradiance.size(), both.irradiance.size());
+  for (std::size_t i = 0; i < one.irradiance.size(); ++i) {
+    EXPECT_EQ(one.irradiance[i][0], 0);
+    EXPECT_EQ(one.irradiance[i][1], both.irradiance[i][1]);
+  }
+  EXPECT_FALSE(one.row_sum.empty());
+}
+
 // Colours are solved channel by channel: each is what it is by itself; groups too, where some are dark in a channel.
 TEST(ExtendedRadiosity, has_the_channels_of_channels) {
   scene::SceneBuilder builder({"a", "b", "c"}, scene::Quantity::radiometric);
