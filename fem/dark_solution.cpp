@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/error.h"
 #include "fem/element_materials.h"
 #include "fem/energy.h"
 #include "fem/space/polynomials.h"
@@ -13,13 +12,11 @@
 namespace interflect::fem {
 namespace {
 
-Index functions_of(const RadiositySettings& settings) { return plane_functions(settings.order); }
-
 /// The one pass that elements had.
 Adaptation adaptation_of(const RadiositySettings& settings, Index elements) {
   AdaptivePass pass{};
   pass.elements = elements;
-  pass.unknowns = elements * functions_of(settings);
+  pass.unknowns = elements * plane_functions(settings.order);
   return {settings.adaptive->goal, {pass}, AdaptiveStop::no_light};
 }
 
@@ -56,7 +53,6 @@ RadiositySolution dark_solution(const scene::Scene& scene, const RadiositySettin
   std::vector<StageCost> stages;
   StageClock timed(stages);
   mesh::ElementMesh mesh = timed("mesh", [&] { return elements_alone(scene, settings); });
-  if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
   const auto rays = timed("ray tree", [&] { return make_light_caster(settings.intersector, scene, run.seed); });
   require_outside_glass(scene, mesh.patches(), *raycast::make_ray_caster(settings.intersector, scene), run);
   RadiositySolution s = zero_on(std::move(mesh), scene, settings);

@@ -132,8 +132,9 @@ Assembly trial(const scene::Scene& scene, const RadiositySettings& settings, con
 double element_size_of(const scene::Scene& scene, const RadiositySettings& settings) {
   if (settings.element_size > 0) return settings.element_size;
   const double elements = default_elements / plane_functions(settings.order);  // as many unknowns
-  return std::min(size_for(scene, elements),
-                  mesh::edge_for_area(mesh::meshed_area(scene, scene::is_diffuse_side), elements));
+  const double area = mesh::meshed_area(scene, scene::is_diffuse_side);
+  if (!(area > 0)) throw core::InputError("the scene has no surface that light could leave");
+  return std::min(size_for(scene, elements), mesh::edge_for_area(area, elements));
 }
 
 bool fits_memory(double elements, const RadiositySettings& settings, Granularity granularity) {
@@ -166,7 +167,9 @@ mesh::ElementMesh elements_alone(const scene::Scene& scene, const RadiositySetti
         core::format("elements of %g m need %s, more than the %s allowed: --element-size %g or more would fit", size,
                      core::format_bytes(bytes).c_str(), core::format_bytes(settings.max_memory).c_str(),
                      size_for(scene, settings.max_memory / bytes_of_each / 1.2)));
-  return mesh::quartered(mesh::uniform(scene, 2.0 * size, scene::is_diffuse_side));
+  mesh::ElementMesh mesh = mesh::quartered(mesh::uniform(scene, 2.0 * size, scene::is_diffuse_side));
+  if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
+  return mesh;
 }
 
 /// Whether there is light or not: also of one channel of several.

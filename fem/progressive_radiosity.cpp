@@ -24,9 +24,7 @@ mesh::ElementMesh mesh_of(const scene::Scene& scene, const RadiositySettings& se
     throw core::InputError("progressive refinement", "constants on elements of one size are expected");
   if (settings.solver != "progressive" && settings.solver != "southwell")
     throw core::InputError("solver '" + settings.solver + "'", "one that shoots is expected: progressive, southwell");
-  mesh::ElementMesh mesh = elements_alone(scene, settings);
-  if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
-  return mesh;
+  return elements_alone(scene, settings);
 }
 
 std::unique_ptr<FormFactorMethod> method_of(const scene::Scene& scene, const mesh::ElementMesh& mesh,

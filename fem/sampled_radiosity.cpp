@@ -163,9 +163,7 @@ double bytes_of_each(const scene::Scene& scene, const RadiositySettings& setting
 }
 
 mesh::ElementMesh mesh_of(const scene::Scene& scene, const RadiositySettings& settings) {
-  mesh::ElementMesh mesh = elements_alone(scene, settings, bytes_of_each(scene, settings));
-  if (mesh.size() == 0) throw core::InputError("the scene has no surface that light could leave");
-  return mesh;
+  return elements_alone(scene, settings, bytes_of_each(scene, settings));
 }
 
 /// As accurate as the settings ask for, or, where the run is stopped, by one round: what is written has all groups.

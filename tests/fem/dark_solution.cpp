@@ -91,6 +91,24 @@ TEST(DarkSolution, has_elements_for_a_goal_in_one_pass) {
   EXPECT_TRUE(s.field->at(0, s.mesh.patches()[0].centroid()).is_zero());
 }
 
+// Where there are mirrors alone there are no elements, whatever their size would be: by any way to solve.
+TEST(DarkSolution, refuses_what_has_no_elements) {
+  scene::SceneBuilder builder({"y"}, scene::Quantity::radiometric);
+  scene::Material mirror;
+  mirror.finish = scene::Mirror{Spectrum(.9)};
+  builder.add_box("room", {Vec3(0, 0, 0), Vec3(1, 1, 1)}, builder.add_material(mirror),
+                  scene::SceneBuilder::Facing::inward);
+  const scene::Scene scene = builder.finish();
+  core::LocalRun run;
+  for (const double size : {0.0, .5})
+    for (const char* solver : {"automatic", "stochastic-jacobi"}) {
+      RadiositySettings settings;
+      settings.element_size = size;
+      settings.solver = solver;
+      EXPECT_THROW(solve_radiosity(scene, settings, run), core::InputError) << solver << size;
+    }
+}
+
 // What does not go together is refused in the dark too.
 TEST(DarkSolution, refuses_what_a_solve_does) {
   core::LocalRun run;
@@ -98,10 +116,10 @@ TEST(DarkSolution, refuses_what_a_solve_does) {
   settings.order = 1;
   settings.closure = "least-squares";
   EXPECT_THROW(solve_radiosity(room(0), settings, run), core::InputError);
-  settings = {};
-  settings.solver = "stochastic-jacobi";
-  settings.drop_below = 1e-4;
-  EXPECT_THROW(solve_radiosity(room(0), settings, run), core::InputError);
+  RadiositySettings by_rays;
+  by_rays.solver = "stochastic-jacobi";
+  by_rays.drop_below = 1e-4;
+  EXPECT_THROW(solve_radiosity(room(0), by_rays, run), core::InputError);
 }
 
 }  // namespace
